@@ -55,7 +55,7 @@ class Refused(ProgramTest):
         free = SMALL[:SMALL.index("[motion]")].replace(
             "inner_radius = 0.15", 'inner_radius = 0.15\nrim = "free"') + (
                 "[initial]\nvelocity = [1.0, 0.0]\n[time]\nend = 0.02\n")
-        self.refused(free + layers(2), ["bodies that nothing holds", 'disk.rim = "bonded"'])
+        self.refused(free + layers(2), ["do not support free bodies", 'disk.rim = "bonded"'])
 
     def test_contacts_that_are_solved_elsewhere(self):
         sharp = SMALL.replace('profile = "flat"', "profile = [[-9, -0.1], [0, 0], [9, -0.1]]")

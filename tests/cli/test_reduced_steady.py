@@ -128,7 +128,7 @@ class Reduce(ProgramTest):
         one = ["run", self.case(STATE), "-o", out, "--quiet", "--overwrite", "--set"]
         self.refuse("is a sweep without snapshots", self.states(2, "false"))
         self.done(*one, "load.pressure=[{curve='tread', value=1e5}]")
-        self.refuse("knows no pressures", out)
+        self.refuse("does not support pressures", out)
         self.done(*one, "analysis.samples_per_sector=1")
         self.refuse("1 snapshots of the runs", out)
         self.done(*one, "output.stress=false")

@@ -119,7 +119,7 @@ inline void set_rim(Built& b, dynamics::RimBody rim) {
 }
 
 inline dynamics::State start_at_rest(const dynamics::Model& model) {
-  const std::vector<Vec2> zero(model.n_nodes());
+  const Field zero(model.n_nodes(), model.components());
   return dynamics::start(model, zero, zero);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The kinds of analysis that a case may ask for, a row each: the value of analysis.kind and
-/// what the kind asks of the other keys. What it does is in analysis/registry.cpp, in this order.
+/// @file  The kinds of analysis that a case may request, one row each: the value of analysis.kind
+/// and its rules for other keys. analysis/registry.cpp has the analyses in the same order.
 #pragma once
 #include <cstddef>
 #include <iterator>
@@ -18,10 +18,10 @@ void check_steady_rolling(CaseValues& in, Case& c);
 
 struct KindOfCase {
   std::string_view name;
-  void (*check)(CaseValues& in, Case& c);  ///< collects faults in `in`; null: nothing of its own
-  std::string_view why_left_out;  ///< why it has no use for keys of others; "": leaves none
-  bool in_time = false;           ///< the body moves, step by step
-  std::string_view height_key = "motion.height";  ///< that says how high the center is
+  void (*check)(CaseValues& in, Case& c);  ///< collects faults in `in`; null: no rules of its own
+  std::string_view why_left_out;           ///< why keys of others have no meaning; "": all have
+  bool in_time = false;                    ///< whether the body moves step by step
+  std::string_view height_key = "motion.height";  ///< the key that gives the height of the center
 };
 
 inline constexpr KindOfCase analysis_kinds[] = {

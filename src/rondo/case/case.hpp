@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A case: what the user's file says, validated, as plain structs (docs/cases.md).
+/// @file  A case: the contents of the user's file, validated, as plain structs (docs/cases.md).
 #pragma once
 #include <array>
 #include <filesystem>
@@ -25,60 +25,60 @@ struct Damping {
   double stiffness = 0.0;  ///< β >= 0 [s]
 };
 
-/// A Gmsh file instead of a generated disk; names are those of physical groups.
+/// A Gmsh file instead of a generated disk; all names are those of physical groups.
 struct MeshCase {
   std::filesystem::path file;  ///< absolute, or relative to the working directory
   double scale = 1.0;          ///< m per unit of length of the file
-  std::string clamped;         ///< physical curve held in the turning frame; empty: none
+  std::string clamped;         ///< physical curve that is clamped; empty: none
   std::string contact;         ///< physical curve of candidates; empty: none
 };
 
-/// What makes a generated disk a wheel in three dimensions (docs/wheel3d.md).
+/// The keys that make a generated disk a wheel in three dimensions (docs/wheel3d.md).
 struct WheelCase {
   std::optional<double> width;         ///< along the axle; absent: the body is plane     [m]
   int axial = 4;                       ///< elements over the width
-  std::optional<double> crown_radius;  ///< of the tread across; absent: flat             [m]
+  std::optional<double> crown_radius;  ///< of the tread's section; absent: flat               [m]
   std::vector<std::array<double, 2>> grooves;  ///< around the wheel: z of the middle, width [m]
 };
 
-/// The section of a wheel in three dimensions, in r and z, instead of a generated disk.
+/// The section of a wheel in three dimensions in r and z, used instead of a generated disk.
 struct SectionCase {
   MeshCase mesh;  ///< its x is r, its y is z
   int sectors = 180;
 };
 
-/// Of a viscous branch, over the shear modulus of slow strains.
+/// Largest modulus of a viscous branch, relative to the shear modulus at slow strains.
 inline constexpr double most_relative_modulus = 1e6;
 
 enum class MaterialModel { linear, neo_hooke, mooney_rivlin, yeoh, ogden };
 enum class Quadrature { full, b_bar, one_point };
 
-/// What a case says of a material beside E, ν and ρ. Of rubber fem::Material::rubber, E and ν come
-/// from it (fill_material). What is not of its model means nothing.
+/// The material keys other than E, ν and ρ. For rubber, fem::Material::rubber, E and ν follow from
+/// them (fill_material). Keys of other models have no meaning.
 struct MaterialLaw {
   MaterialModel model = MaterialModel::linear;
   double shear_modulus = 0.0;                         ///< of "neo-hooke"                 [Pa]
-  double c10 = 0.0, c01 = 0.0, c20 = 0.0, c30 = 0.0;  ///< of those that have them        [Pa]
+  double c10 = 0.0, c01 = 0.0, c20 = 0.0, c30 = 0.0;  ///< of laws that have them    [Pa]
   std::vector<std::array<double, 2>> terms;           ///< of "ogden": μ_i [Pa], α_i
-  std::optional<double> bulk_modulus;                 ///< of rubber; absent: ν is given  [Pa]
+  std::optional<double> bulk_modulus;                 ///< of rubber; absent: ν given    [Pa]
   Quadrature integration = Quadrature::full;
   std::vector<std::array<double, 2>> viscosity;  ///< of rubber: relative modulus, time [s]
 
   [[nodiscard]] bool is_rubber() const noexcept { return model != MaterialModel::linear; }
 };
 
-/// Material of a part of the body, where it differs from [material].
+/// Material of a part of the body that differs from [material].
 struct MaterialRegion {
-  std::string surface;      ///< of a mesh: physical surface
-  std::vector<int> layers;  ///< of a disk: layers of elements, 1 at the rim
+  std::string surface;      ///< for a mesh: physical surface
+  std::vector<int> layers;  ///< for a disk: layers of elements, 1 at the rim
   fem::Material material;
   MaterialLaw law;
 };
 
 enum class StressStiffening { none, centrifugal };
 
-/// Which boundaries of bodies touch each other.
-enum class BodyContact { none, bodies, all };  ///< all: a body may touch itself
+/// Which bodies' boundaries touch each other.
+enum class BodyContact { none, bodies, all };  ///< all: a body may also touch itself
 
 struct BodyContactCase {
   BodyContact between = BodyContact::none;
@@ -89,12 +89,12 @@ struct BodyContactCase {
 
 struct PressureCase {
   std::string curve;         ///< physical curve
-  dynamics::Table pressure;  ///< against the outward normal [Pa]
+  dynamics::Table pressure;  ///< opposite to the outward normal [Pa]
 };
 
-/// A point of the reference configuration whose motion and stress go into history.csv.
+/// A point of the reference configuration; history.csv contains its motion and stress.
 struct Probe {
-  std::string name;  ///< of its columns
+  std::string name;  ///< used in the names of its columns
   Vec2 position;     ///< [m]
 };
 
@@ -107,34 +107,34 @@ struct GroundCase {
 
 enum class RollingSlip { bdf2, upwind };
 
-/// How the increments of a crush are solved: one after another, or all at once in iterations.
+/// Solution of the increments of a crush: one after another, or all at once by iterations.
 enum class CrushMethod { direct, latin, latin_pgd };
 
 struct AnalysisCase {
   AnalysisKind kind = AnalysisKind::dynamic;
-  // Of a crush: numbers, or tables over the number of the increment (CrushPath).
+  // Keys of a crush: numbers, or tables over the number of the increment (CrushPath).
   dynamics::Table depth{};   ///< of the center below first touch, >= 0                         [m]
   int increments = 0;        ///< >= 1
-  dynamics::Table slide{};   ///< of the center along +x: a number after the pressing           [m]
-  int slide_increments = 0;  ///< >= 1 where the slide is a number other than 0, else 0
+  dynamics::Table slide{};   ///< of the center along +x; a number acts after pressing          [m]
+  int slide_increments = 0;  ///< >= 1 if the slide is a number other than 0, else 0
   CrushMethod solver = CrushMethod::direct;
-  double search_direction = 0.0;  ///< of LATIN; 0: chosen                                  [N/m²]
+  double search_direction = 0.0;  ///< of LATIN; 0: automatic            [N/m²]
   double relaxation = 0.8;        ///< of LATIN, in (0, 1]
   double tolerance = 1e-3;        ///< of LATIN
   double downsizing = 0.3;        ///< of LATIN-PGD, of the modes that are kept; 0: none
-  // Of steady rolling.
+  // Keys of steady rolling:
   int samples_per_sector = 8;                  ///< P >= 1
-  RollingSlip slip = RollingSlip::bdf2;        ///< how slip is taken
-  bool massless_contact = true;                ///< with more than one sample always
-  bool accept_scheme_power = false;            ///< much power of the discretisation is no fault
-  std::optional<double> load{};                ///< F_y > 0, instead of the height           [N/m]
-  std::optional<double> traction{}, torque{};  ///< F_x, or clockwise on the rim, instead of the
-                                               ///< speed                                 [N/m], [N]
+  RollingSlip slip = RollingSlip::bdf2;        ///< discretisation of the slip
+  bool massless_contact = true;                ///< always the case with more than one sample
+  bool accept_scheme_power = false;            ///< a large power of the discretisation is no fault
+  std::optional<double> load{};                ///< F_y > 0, instead of the height            [N/m]
+  std::optional<double> traction{}, torque{};  ///< F_x, or clockwise torque on the rim, instead of
+                                               ///< the speed                             [N/m], [N]
 };
 
 enum class InitialState { rest, stationary, steady_rolling };
 
-/// Rigid motion of the free bodies of a physical surface at t = 0, instead of that of [initial].
+/// Rigid motion of the free bodies of a physical surface at t = 0, used instead of [initial].
 struct InitialRegion {
   std::string surface;
   Vec2 velocity;                  ///< of the center of mass [m/s]
@@ -145,30 +145,30 @@ struct Initial {
   InitialState state = InitialState::rest;
   Vec2 velocity;  ///< added to every free node, fixed frame [m/s]
   std::array<std::array<double, 2>, 2> displacement_gradient{};  ///< u0 += G X on free nodes [-]
-  // A free mesh is turned by `turn` about the origin, then moved by `position`.
+  // A free mesh is first turned by `turn` about the origin, then moved by `position`.
   Vec2 position;                  ///< [m]
   double turn = 0.0;              ///< > 0 clockwise, as `angular_velocity` [rad]
-  double angle = 0.0;             ///< as given: minus `turn`; 0 once the case is read [rad]
-  double angular_velocity = 0.0;  ///< of each about its center of mass, > 0 clockwise [rad/s]
+  double angle = 0.0;             ///< as given: minus `turn`; 0 after reading the case [rad]
+  double angular_velocity = 0.0;  ///< of each body about its center of mass, > 0 clockwise [rad/s]
   std::vector<InitialRegion> regions;
 };
 
-/// What mass contact nodes on the ground have: theirs, none, or none with center and inertia kept.
+/// Mass of contact nodes on the ground: lumped, none, or none with center and inertia conserved.
 enum class ContactMass { lumped, singular, singular_kept };
 
 using dynamics::Scheme;
 
-/// Some of the elements of a body, by one of three.
+/// A selection of elements of a body by one of three criteria.
 struct ElementChoice {
   std::optional<double> slower_than;  ///< elements whose own critical step is below this [s]
-  std::vector<int> layers;            ///< of a disk: layers of elements, 1 at the rim
+  std::vector<int> layers;            ///< for a disk: layers of elements, 1 at the rim
   std::string region;                 ///< physical surface of a mesh
 };
 
-/// Default of time.safety where some part is rubber.
+/// Default of time.safety if some part is rubber.
 inline constexpr double rubber_safety = 0.85;
 
-/// Of the scheme "hati": which elements are explicit, in fine steps.
+/// Keys of the scheme "hati": which elements are explicit with fine steps.
 struct HatiCase {
   ElementChoice fine;  ///< by layers or region
   int ratio = 1;       ///< m >= 1 fine steps in a coarse one
@@ -177,7 +177,7 @@ struct HatiCase {
 struct Time {
   double end = 0.0;            ///< > 0 [s]
   double safety = 0.8;         ///< step / critical step, 0 < safety <= 1; rubber: rubber_safety
-  std::optional<double> step;  ///< given step, of "hati" the fine one [s]; excludes safety
+  std::optional<double> step;  ///< given step, for "hati" the fine one [s]; excludes safety
   Scheme scheme = Scheme::symplectic;
 };
 
@@ -190,22 +190,22 @@ struct Output {
   double checkpoint_interval = 60.0;  ///< [s of wall time]
 };
 
-/// Where a key stands that was given; line 0: by --set.
+/// The place of a given key in the file; line 0: by --set.
 struct KeyPlace {
   std::string file;
   int line = 0, column = 0;
-  std::string written;  ///< the value, as written
+  std::string written;  ///< the value as the user wrote it
 };
 
-/// What means nothing to an analysis (of a crush: damping, motion, initial state, time,
-/// restitution, fillet, the times of the output) has its defaults there, whatever the file says.
+/// Keys without a meaning for an analysis have their defaults here, whatever the file says. For a
+/// crush these are damping, motion, initial state, time, restitution, fillet and output times.
 struct Case {
   std::filesystem::path file;
-  std::map<std::string, KeyPlace> places;  ///< of the keys given, by dotted key
-  int schema = 1;                          ///< of the format
+  std::map<std::string, KeyPlace> places;  ///< of the given keys, by dotted key
+  int schema = 1;                          ///< version of the format
   std::string title;
-  mesh::Disk disk;                     ///< unused where there is a mesh
-  bool free_rim = false;               ///< of a disk: nothing holds its inner boundary
+  mesh::Disk disk;                     ///< unused if there is a mesh
+  bool free_rim = false;               ///< of a disk: its inner boundary is not clamped
   WheelCase wheel;                     ///< of the disk
   std::optional<MeshCase> mesh;        ///< instead of the disk
   std::optional<SectionCase> section;  ///< instead of the disk
@@ -216,33 +216,33 @@ struct Case {
   std::vector<PressureCase> pressures;
   Damping damping;
   dynamics::Motion motion;
-  std::optional<dynamics::RimBody> rim;  ///< absent: the rim follows the motion
+  std::optional<dynamics::RimBody> rim;  ///< absent: the rim follows its tables
   std::optional<GroundCase> ground;      ///< absent: no contact
   BodyContactCase body_contact;
   Initial initial;
   AnalysisCase analysis;
   Time time;
   std::string solver_operator = "auto";  ///< "auto" | "cyclic" | "sparse"
-  std::vector<ElementChoice> implicit;   ///< elements that are implicit in the explicit step
+  std::vector<ElementChoice> implicit;   ///< elements treated implicitly in the explicit step
   ContactMass contact_mass = ContactMass::lumped;
-  std::optional<HatiCase> hati;    ///< there where time.scheme is "hati"
-  int contact_iterations = 10000;  ///< most that a coupled contact problem may take
-  int dump_contacts = 0;  ///< contact problems that took more iterations are kept as files; 0: none
+  std::optional<HatiCase> hati;    ///< present if time.scheme is "hati"
+  int contact_iterations = 10000;  ///< largest number for a coupled contact problem
+  int dump_contacts = 0;  ///< contact problems with more iterations are written to files; 0: none
   Output output;
-  std::vector<std::string> warnings;  ///< said while reading; the caller prints them
+  std::vector<std::string> warnings;  ///< found while reading; the caller prints them
 };
 
-/// Something is held in the turning frame, so that there is a motion of the rim.
+/// Whether something is clamped in the rotating frame, so that there is a motion of the rim.
 inline bool is_held(const Case& c) {
   return c.mesh ? !c.mesh->clamped.empty() : !c.free_rim;
 }
 
-/// The body is a wheel in three dimensions.
+/// Whether the body is a wheel in three dimensions.
 inline bool is_solid(const Case& c) {
   return c.wheel.width.has_value() || c.section.has_value();
 }
 
-/// The body is a [disk], in the plane or with a width.
+/// Whether the body is a [disk], in the plane or with a width.
 inline bool is_generated(const Case& c) {
   return !c.mesh && !c.section;
 }
@@ -255,29 +255,29 @@ inline MeshCase* mesh_file_of(Case& c) {
   return c.mesh ? &*c.mesh : c.section ? &c.section->mesh : nullptr;
 }
 
-/// There may be a body that nothing holds: of a mesh, only its cells tell.
+/// Whether a body may be unconstrained; for a mesh, this is known only from its cells.
 inline bool may_be_free(const Case& c) {
   return c.mesh.has_value() || c.free_rim;
 }
 
-/// Some part of the body is rubber at finite strain.
+/// Whether some part of the body is rubber at finite strain.
 bool has_rubber(const Case& c) noexcept;
 
 /// Reads and validates. `settings` are the "a.b=value" of --set, applied before validation; a value
 /// that is not TOML is taken as a string. @throws InputError with every fault, in the file's order.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
-/// The same from the text of a file that need not be there; `file` is what messages call it.
+/// The same for the text of a file that need not exist; messages call it `file`.
 Case read_case_text(const std::filesystem::path& file, std::string text,
                     const std::vector<std::string>& settings = {});
 
-/// The case as TOML with all defaults written out; reading it again gives the same case to the bit.
+/// The case as TOML with all defaults written out; reading it again gives bitwise the same case.
 std::string write_case(const Case& c);
 
 /// The key of the largest of the disk's numbers of layers and columns.
 std::string_view largest_count(const mesh::Disk& disk) noexcept;
 
-/// A fault that shows only once the case is put together, at the place where its key stands, else
-/// at that of its table.
+/// A fault found only once the case is complete; it is reported at the place of its key, else at
+/// that of its table.
 InputError case_error(const Case& c, const std::string& key, const std::string& message,
                       const std::string& allowed);
 

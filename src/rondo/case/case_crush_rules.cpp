@@ -13,7 +13,7 @@ namespace {
 constexpr std::string_view depth = "analysis.depth", increments = "analysis.increments",
                            slide = "analysis.slide", slide_increments = "analysis.slide_increments";
 
-/// Both are numbers: first the one, then the other.
+/// Depth and slide are numbers: the body is first pressed, then slid.
 void check_numbers(CaseValues& in, AnalysisCase& a) {
   if (in.has(slide)) require(in, slide_increments);
   if (in.has(slide_increments)) require(in, slide);
@@ -36,7 +36,7 @@ void check_table(CaseValues& in, std::string_view key, const dynamics::Table& ta
         fmt::format("the last point must be at increment {0}: analysis.increments = {0}", n));
 }
 
-/// One of them is a table: so must be the other, if it is there.
+/// One of them is a table; if the other is given, it must be a table too.
 void check_tables(CaseValues& in, const AnalysisCase& a) {
   if (!in.has_array(depth) && in.has(depth) && in.good({depth, increments}))
     in.fault(depth, "is a number beside a table of analysis.slide",
@@ -61,7 +61,7 @@ void check_depth(CaseValues& in, const Case& c) {
   const double largest = c.analysis.depth.largest();
   const double thickness = c.disk.outer_radius - c.disk.inner_radius;
   const bool known = !c.mesh && in.good({"disk.outer_radius", "disk.inner_radius"});
-  std::string allowed = "> 0";  // of a mesh: how thick it is, only the file tells
+  std::string allowed = "> 0";  // for a mesh: only the file gives its thickness
   if (known) allowed += fmt::format(" and < outer_radius - inner_radius = {:.6g}", thickness);
   if (largest == 0.0)
     in.fault(depth, "the body would not be pressed at all", allowed);
@@ -73,7 +73,7 @@ bool slides(const AnalysisCase& a) {
   return a.slide.largest() > 0.0;
 }
 
-/// Keys that only some solvers have, and what these solvers do not do.
+/// Keys that only some solvers have, and cases that these solvers do not support.
 void check_solver(CaseValues& in, Case& c) {
   constexpr std::string_view solver = "analysis.solver", downsizing = "analysis.downsizing";
   AnalysisCase& a = c.analysis;

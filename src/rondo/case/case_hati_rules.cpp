@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Rules of time.scheme = "hati": which part is fine, and which motion it is made for
+/// Rules of time.scheme = "hati": which part is fine, and which motions it supports
 /// (docs/cases.md).
 #include <algorithm>
 
@@ -19,7 +19,7 @@ void check_fine(CaseValues& in, const Case& c) {
              "{layers = [...]} of a [disk], or {region = \"...\"} of a [mesh]");
 }
 
-/// The matrix that joins the parts is factored once, for one angular velocity.
+/// The matrix that joins the parts is factorised once, for one angular velocity.
 void check_spin(CaseValues& in, const Case& c) {
   constexpr std::string_view key = "motion.angular_velocity";
   const auto& points = c.motion.angular_velocity.points();

@@ -63,7 +63,7 @@ bool region_is_by_ratio(const Case& c, std::size_t k) {
 bool region_is_rubber(const Case& c, std::size_t k) {
   return c.regions[k].law.is_rubber();
 }
-/// In a body of linear materials alone the quadrature of all is that of [material].
+/// If all materials are linear, the integration of [material] applies to all.
 bool region_has_integration(const Case& c, std::size_t k) {
   return has_rubber(c) || c.regions[k].law.integration != c.law.integration;
 }
@@ -83,7 +83,7 @@ bool has_grooves(const Case& c) {
 bool is_smooth(const Case& c) {
   return !c.disk.tread;
 }
-/// Mass damping acts at the old half step, so that the critical step hangs on it.
+/// Mass damping acts at the old half step, so that the critical step depends on it.
 bool is_lagged(const Case& c) {
   return c.time.scheme == Scheme::as_printed || c.rim;
 }
@@ -96,7 +96,7 @@ bool has_free_y(const Case& c) {
 bool has_free_spin(const Case& c) {
   return c.rim && c.rim->free_spin;
 }
-/// A load takes the place of the height, traction or torque that of the speed.
+/// A load replaces the height; traction or torque replaces the speed.
 bool has_load(const Case& c) {
   return c.analysis.load.has_value();
 }

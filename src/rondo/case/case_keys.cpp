@@ -21,7 +21,7 @@ struct Words {
   std::string_view type, allowed;
 };
 
-/// In the order of KeyType; of numbers and choices the table of keys says what is allowed.
+/// In the order of KeyType; the table of keys gives the allowed range of numbers and choices.
 constexpr Words words[] = {
     {"integer", ""},
     {"float", ""},
@@ -53,7 +53,7 @@ std::string range_text(const Range& r, bool whole) {
   return said;
 }
 
-/// Of a number or a table.
+/// The allowed values of a number or a table.
 std::string table_text(const Allowed& allowed, const std::string& range) {
   const char* of_points = allowed.of_increments
                               ? "[[increment, value], ...] with increments increasing"
@@ -75,8 +75,8 @@ std::string choices_text(const Allowed& allowed, std::string_view last = " or ")
   return said;
 }
 
-/// Names of tables and of lists of tables, these with "[]", outer before inner; also of those that
-/// hold nothing but tables.
+/// Names of tables and of lists of tables (with "[]"), outer before inner, including tables that
+/// contain nothing but tables.
 std::vector<std::string_view> table_names() {
   std::vector<std::string_view> tables;
   const auto add = [&](std::string_view table) {
@@ -94,7 +94,7 @@ bool is_list(std::string_view table) {
   return table.ends_with("[]");
 }
 
-/// There is a key of which `path` is the part before a character `next`.
+/// Whether there is a key that begins with `path` followed by the character `next`.
 bool leads_to_a_key(std::string_view path, char next) {
   const auto keys = case_keys();
   return std::any_of(keys.begin(), keys.end(), [&](const CaseKey& key) {
@@ -103,7 +103,7 @@ bool leads_to_a_key(std::string_view path, char next) {
   });
 }
 
-/// Every part that a case may have, with its defaults.
+/// A case with every part that is possible, with defaults.
 Case& whole_case() {
   static Case whole = [] {
     Case c;
@@ -289,7 +289,7 @@ std::string_view nearest_key(std::string_view path) {
   const auto consider = [&](std::string_view candidate) {
     const std::pair score{edit_distance(leaf, leaf_of(candidate)),
                           edit_distance(table, table_of(candidate))};
-    // A short name in another table is near only if it is the same.
+    // A short name in another table counts as similar only if it is equal.
     if (table != table_of(candidate) && score.first > leaf.size() / 4) return;
     if (score >= least) return;
     least = score;

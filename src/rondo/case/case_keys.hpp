@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The keys of a case file: one table, from which come the reader, its messages, the writer,
-/// what of a case its body hangs on, what a run that goes on may change, and docs/cases.md.
+/// @file  The keys of a case file as one table. The reader, its messages, the writer, the keys on
+/// which the body depends, the keys that a resumed run may change, and docs/cases.md use it.
 #pragma once
 #include <array>
 #include <filesystem>
@@ -34,7 +34,7 @@ enum class KeyType {
   pairs
 };
 
-/// An enum or a bool, by the index of its value among the choices of its key.
+/// Access to an enum or a bool by the index of its value among the choices of its key.
 struct Choice {
   void* target;
   std::size_t (*get)(const void* target);
@@ -48,14 +48,14 @@ Choice choice_of(E& target) {
           [](void* p, std::size_t index) { *static_cast<E*>(p) = static_cast<E>(index); }};
 }
 
-/// Some of the choices of a key: of each whether it is among them; null beyond the last.
+/// Access to a set of a key's choices: whether each one is in it; null beyond the last.
 struct ChoiceList {
   std::array<bool*, 8> among{};
 };
 
 using Matrix = std::array<std::array<double, 2>, 2>;
 
-/// Where in a case the value of a key is.
+/// The field of a case that holds the value of a key.
 using CaseMember =
     std::variant<int*, double*, std::optional<double>*, bool*, std::string*, std::filesystem::path*,
                  Choice, ChoiceList, Vec2*, Matrix*, dynamics::Table*, std::vector<Vec2>*,
@@ -69,33 +69,33 @@ CaseMember field_of(T& target) {
     return &target;
 }
 
-/// Bounds of a number; infinite: none on that side.
+/// Bounds of a number; an infinite bound means none on that side.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
-  bool low_open = false;   ///< low itself is out
-  bool high_open = false;  ///< high itself is out
+  bool low_open = false;   ///< low itself is excluded
+  bool high_open = false;  ///< high itself is excluded
 
   /// False for NaN.
   [[nodiscard]] bool contains(double value) const noexcept;
   [[nodiscard]] bool is_bounded() const noexcept;
 };
 
-/// What may stand there, beside what the type says.
+/// The values allowed at a key, in addition to its type.
 struct Allowed {
   Range range;                                ///< of numbers, and of the values of tables
   std::array<std::string_view, 8> choices{};  ///< in the order of the enum; none: no choice
-  std::string_view also{};                    ///< a bound that involves other keys: a rule
-  bool of_increments = false;  ///< the points of a table are at increments, not at times
+  std::string_view also{};                    ///< a bound by other keys, checked by a rule
+  bool of_increments = false;                 ///< the points of a table are increments, not times
 
   [[nodiscard]] bool is_choice() const noexcept { return !choices[0].empty(); }
 };
 
-/// The analyses that a key or a table means something to.
+/// The analyses for which a key or a table has a meaning.
 struct Analyses {
   unsigned bits;         ///< bit k: the AnalysisKind k
-  bool told = true;      ///< what is given for nothing is named in a warning
-  bool written = false;  ///< its default is written where it means nothing
+  bool told = true;      ///< a warning names a given key that has no meaning
+  bool written = false;  ///< its default is written even if it has no meaning
 
   [[nodiscard]] constexpr bool all() const noexcept { return bits == ~0U; }
   [[nodiscard]] constexpr bool contain(AnalysisKind kind) const noexcept {
@@ -106,7 +106,7 @@ struct Analyses {
 constexpr unsigned bit_of(AnalysisKind kind) {
   return 1U << static_cast<unsigned>(kind);
 }
-// A kind of analysis that is not named here has the keys of a dynamic one.
+// A kind of analysis that is not named here has the same keys as a dynamic one.
 inline constexpr Analyses in_motion{~bit_of(AnalysisKind::crush)};
 inline constexpr Analyses in_motion_untold{in_motion.bits, false};
 inline constexpr Analyses in_motion_but_written{in_motion.bits, true, true};
@@ -125,21 +125,21 @@ constexpr bool never(const Case& /*c*/) {
   return false;
 }
 
-/// When a key counts, and what for.
+/// When a key has a meaning, when it is required, and what it affects.
 struct Use {
   using Test = bool (*)(const Case& c);
   using TestOfItem = bool (*)(const Case& c, std::size_t k);
 
   bool required = false;
-  Analyses required_in{~0U};    ///< of those below, the analyses that require it
-  std::string_view standard{};  ///< for the manual, where the default is not that of the struct
-  Test when = always;           ///< it is written, and required if it is
-  TestOfItem of_item = always;  ///< likewise of the k-th table of its list alone
+  Analyses required_in{~0U};    ///< of the analyses below, those that require it
+  std::string_view standard{};  ///< default in the manual, if not that of the struct
+  Test when = always;           ///< only then is it written, and required if it is
+  TestOfItem of_item = always;  ///< likewise for the k-th table of its list
   Analyses analyses{~0U};
-  Test changes_body = always;  ///< runs that differ in it alone share no body: see body_key()
+  Test changes_body = always;  ///< else runs that differ only in it share a body: see body_key()
   bool may_change_on_resume = false;
 
-  // The same but for one thing.
+  // Each of these returns a copy with one member changed.
   [[nodiscard]] constexpr Use if_(Test test, std::string_view text = {}) const {
     Use use = said(text);
     use.when = test;
@@ -179,9 +179,9 @@ struct Use {
 
 struct CaseKey {
   std::string_view path;  ///< dotted, e.g. "disk.tread.depth"; "output.probe[].name": of each table
-                          ///< of a list
+                          ///< in a list
   std::string_view unit;  ///< "-": none
-  CaseMember (*field)(Case& c, std::size_t k);  ///< of the k-th table of its list. @pre it is there
+  CaseMember (*field)(Case& c, std::size_t k);  ///< in the k-th table of its list. @pre it exists
   Allowed allowed;
   Use use;
   std::string_view meaning;  ///< for the manual, in Markdown
@@ -190,8 +190,8 @@ struct CaseKey {
 /// A table of a case file, or a list of tables.
 struct CaseTable {
   std::string_view path;                   ///< "" : the top; "output.probe[]": a list
-  std::size_t (*count)(const Case& c);     ///< 0: not there; of a list, its length
-  void (*resize)(Case& c, std::size_t n);  ///< to n; null where it is always there
+  std::size_t (*count)(const Case& c);     ///< 0: absent; for a list, its length
+  void (*resize)(Case& c, std::size_t n);  ///< to n; null if it always exists
   Analyses analyses{~0U};
 
   [[nodiscard]] bool is_list() const noexcept { return path.ends_with("[]"); }
@@ -201,84 +201,84 @@ struct CaseTable {
   }
 };
 
-/// The tables that give the body: one of them is in a case. Of several the first is read.
+/// The tables that define the body, of which a case has one. Of several, the first is read.
 inline constexpr std::array<std::string_view, 3> body_tables{"disk", "mesh", "section"};
 
-/// All keys, in the order in which a case is written: those of a table side by side.
+/// All keys, in the order in which a case is written; keys of a table are adjacent.
 std::span<const CaseKey> case_keys() noexcept;
 /// All tables with keys, in the same order.
 std::span<const CaseTable> case_tables() noexcept;
-/// Those of one table, by its path in case_tables().
+/// The keys of one table, found by its path in case_tables().
 std::span<const CaseKey> keys_of(const CaseTable& table);
-/// The table that a key stands in.
+/// The table that contains a key.
 const CaseTable& table_with(const CaseKey& key);
 
-/// The k-th table of its list says something by this key: it is written, and required if it is.
+/// Whether the key has a meaning in the k-th table of its list, so that it is written, or required.
 inline bool counts(const CaseKey& key, const Case& c, std::size_t k) {
   return key.use.when(c) && key.use.of_item(c, k);
 }
 
-/// The key and its table mean something to this kind of analysis.
+/// Whether the key and its table have a meaning for this kind of analysis.
 bool means_to(const CaseKey& key, AnalysisKind kind);
-/// Gives a key its default; a list of tables is emptied.
+/// Gives a key its default; empties a list of tables.
 void reset(const CaseKey& key, Case& c);
 
-/// Null where there is no such key. Tables of lists are named by their number:
+/// Null if there is no such key. A table in a list is named by its number:
 /// "output.probe[0].name".
 const CaseKey* find_case_key(std::string_view path);
 
-/// A table of a case file, e.g. "disk.tread", "output.probe[0]".
+/// Whether it is a table of a case file, e.g. "disk.tread", "output.probe[0]".
 bool is_case_table(std::string_view path);
 
-/// A list of tables of a case file, e.g. "output.probe".
+/// Whether it is a list of tables of a case file, e.g. "output.probe".
 bool is_case_list(std::string_view path);
 
-/// "output.probe" and 2 to "output.probe[2]".
+/// Turns "output.probe" and 2 into "output.probe[2]".
 std::string item_of(std::string_view list, std::size_t index);
 
-/// "output.probe[2].name" to "output.probe[].name".
+/// Turns "output.probe[2].name" into "output.probe[].name".
 std::string without_indices(std::string_view path);
 
-/// "[disk.tread]"; "[[output.probe]]" of "output.probe[]".
+/// "[disk.tread]" for "disk.tread"; "[[output.probe]]" for "output.probe[]".
 std::string heading_of(std::string_view table);
 
-/// "output.probe[].name" and 2 to "output.probe[2].name"; a key of no list as it is.
+/// Turns "output.probe[].name" and 2 into "output.probe[2].name"; other keys are unchanged.
 std::string path_of(const CaseKey& key, std::size_t index);
 
 KeyType type_of(const CaseKey& key);
-/// "float", "integer", ...: TOML's words, for the manual.
+/// "float", "integer", ...: the type in the words of TOML, for the manual.
 std::string_view type_text(const CaseKey& key);
-/// The index of a choice by its name; none: it is not one of them.
+/// The index of a choice by its name; none: there is no such choice.
 std::optional<std::size_t> find_choice(const Allowed& allowed, std::string_view name);
-/// A value as TOML. @param field of this key
+/// A value as TOML. @param field that of this key
 std::string value_text(const CaseKey& key, const CaseMember& field);
-/// As the manual says it: "0.8", "required", "that of [material]".
+/// The default as the manual writes it: "0.8", "required", "that of [material]".
 std::string default_text(const CaseKey& key);
 
-/// What may stand there, e.g. "> 0 and < disk.outer_radius".
+/// The allowed values, e.g. "> 0 and < disk.outer_radius".
 std::string allowed_text(const CaseKey& key);
 
 /// The keys of a table as one list; "": the tables and keys at the top.
 std::string keys_text(std::string_view table);
 
-/// The table a dotted key stands in ("" at the top), and the part after it.
+/// The table that contains a dotted key ("" at the top), and the rest of the key.
 std::string_view table_of(std::string_view path) noexcept;
 std::string_view leaf_of(std::string_view path) noexcept;
 
-/// What other programs or books call a key: the last part of its path.
+/// A name that other programs or books use for a key: the last part of its path.
 struct Synonym {
   std::string_view word;
-  std::string_view key;        ///< that is meant
-  std::string_view instead{};  ///< where there is no such key: what there is
+  std::string_view key;        ///< the key that it means
+  std::string_view instead{};  ///< if there is no such key: what exists instead
 };
 std::span<const Synonym> synonyms_of_keys() noexcept;
 
-/// The key or table that was probably meant; empty: nothing is near. A key of the right name in the
-/// wrong table counts as near.
+/// The key or table that was probably meant; empty: nothing is similar. A key with the right name
+/// in the wrong table counts as similar.
 std::string_view nearest_key(std::string_view path);
 
-/// What to say of a key that does not exist: "did you mean ...?", by its synonyms, else by
-/// nearest_key(); empty: nothing.
+/// The suggestion for a key that does not exist: "did you mean ...?", by its synonyms, else by
+/// nearest_key(); empty: none.
 std::string meant_text(std::string_view path);
 
 }  // namespace rondo::study

@@ -9,7 +9,7 @@
 namespace rondo::study {
 namespace {
 
-/// A later schema may mean other things by the same keys, so nothing else is said of such a file.
+/// A later schema may give the same keys other meanings, so other faults are not reported.
 void read_schema(CaseSource& source) {
   const int schema_read = Case{}.schema;
   const auto found = source.values.find("schema");
@@ -26,7 +26,7 @@ void read_schema(CaseSource& source) {
             fmt::format("{}", schema_read)});
 }
 
-/// A part of the case that the file has; of bodies the first alone.
+/// Whether the file has this part of the case; of several bodies only the first counts.
 bool is_given(const CaseValues& in, const CaseTable& table) {
   if (!in.has_table(table.path)) return false;
   for (const std::string_view body : body_tables) {
@@ -37,7 +37,7 @@ bool is_given(const CaseValues& in, const CaseTable& table) {
   return true;
 }
 
-/// Lists are made when their turn comes: what is left out in them is that of a table before.
+/// Lists are created in their turn, because missing values in them come from an earlier table.
 void read_keys(CaseValues& in, Case& c) {
   for (const CaseTable& table : case_tables())
     if (table.resize && !table.is_list() && is_given(in, table)) table.resize(c, 1);
@@ -49,8 +49,8 @@ void read_keys(CaseValues& in, Case& c) {
   if (MeshCase* mesh = mesh_file_of(c)) mesh->file = c.file.parent_path() / mesh->file;
 }
 
-/// Where the kind of analysis is at fault, nothing is said of what only some kinds require; where
-/// what says which parameters a material has is, nothing of these.
+/// If the kind of analysis is faulty, keys that only some kinds require are not checked. If the key
+/// that decides about the parameters of a material is faulty, these are not checked.
 void require_keys(CaseValues& in, const Case& c) {
   for (const CaseTable& table : case_tables())
     for (std::size_t k = 0; k < table.count(c); ++k)
@@ -66,7 +66,7 @@ void require_keys(CaseValues& in, const Case& c) {
       }
 }
 
-/// Keys that only other analyses than a dynamic one have, given for another one.
+/// Refuses keys of other analyses than a dynamic one, given for yet another analysis.
 void refuse_keys_of_others(CaseValues& in, const Case& c) {
   const std::string_view name = rules_of(c.analysis.kind).name;
   for (const CaseKey& key : case_keys()) {
@@ -81,8 +81,8 @@ void refuse_keys_of_others(CaseValues& in, const Case& c) {
   }
 }
 
-/// What means nothing to the analysis has its default in the case as run. Returns what was given
-/// for nothing: whole tables, else keys; of a choice only where it is not the default.
+/// Keys without a meaning for the analysis get their default in the case as run. Returns those that
+/// were given: whole tables, else keys; a choice only if it is not the default.
 std::string leave_out(const CaseValues& in, Case& c) {
   std::string given;
   const auto add = [&](const std::string& name) { given += (given.empty() ? "" : ", ") + name; };

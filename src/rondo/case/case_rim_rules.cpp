@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Rules of [rim]: what is free has a load and no table, what is held the other way round
+/// Rules of [rim]: a free degree of freedom has a load and no table, a prescribed one the reverse
 /// (docs/cases.md).
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ bool is_above_zero(const Table& table) {
   return std::ranges::any_of(table.points(), [](const auto& point) { return point[1] > 0.0; });
 }
 
-/// A load of a degree of freedom.
+/// A load on a degree of freedom.
 struct Load {
   std::string_view key;
   std::string_view dof;  ///< as in rim.free

@@ -11,7 +11,7 @@
 namespace rondo::study {
 namespace {
 
-constexpr double most_steps = 1e12;  ///< years of computing
+constexpr double most_steps = 1e12;  ///< would take years
 
 void check_tread(CaseValues& in, const mesh::Disk& disk) {
   constexpr std::string_view columns = "disk.mesh.circumferential";
@@ -25,7 +25,7 @@ void check_tread(CaseValues& in, const mesh::Disk& disk) {
              fmt::format("> 0 and < outer_radius - inner_radius = {:.6g}", thickness));
 }
 
-/// The mesh must be numbered by int.
+/// The nodes of the mesh must be counted by int.
 void check_size(CaseValues& in, const Case& c) {
   if (!in.good({"disk.mesh.radial", "disk.mesh.circumferential", "disk.tread.pitches",
                 "disk.tread.land_columns", "disk.tread.groove_columns", "disk.tread.layers"}))
@@ -50,7 +50,7 @@ void check_disk(CaseValues& in, const Case& c) {
   check_size(in, c);
 }
 
-/// No two tables of a list have the same name. @param path of the names, as in the table of keys
+/// Names in the tables of a list must be unique. @param path of the names, as in the table of keys
 void check_names(CaseValues& in, std::string_view path, Case& c) {
   const CaseKey& key = *find_case_key(path);
   const auto name = [&](std::size_t k) { return *std::get<std::string*>(key.field(c, k)); };
@@ -75,7 +75,7 @@ void warn_of_locking(const std::string& key, const fem::Material& material, Case
                   key, material.poissons_ratio, is_solid(c) ? "" : "in plane strain, "));
 }
 
-/// Each table chooses by one key.
+/// Each table chooses elements by exactly one key.
 void check_implicit(CaseValues& in, const Case& c) {
   for (std::size_t k = 0; k < c.implicit.size(); ++k) {
     const std::string table = item_of("solver.implicit", k);
@@ -109,7 +109,7 @@ void check_material(CaseValues& in, Case& c) {
       warn_of_locking(item_of("material.region", k) + ".poissons_ratio", c.regions[k].material, c);
 }
 
-/// Nothing carries or turns a free body but what it starts with.
+/// A free body moves only by its initial velocity: nothing carries or turns it.
 void check_motion(CaseValues& in, Case& c) {
   if (c.motion.slope != 0.0 && c.motion.gravity.largest() == 0.0)
     c.warnings.emplace_back(
@@ -150,7 +150,7 @@ void check_body_contact(CaseValues& in, Case& c) {
                  mesh::physical_group_line("Curve", "tread"));
 }
 
-/// Keys of free bodies in a case that can have none.
+/// Refuses keys of free bodies in a case that can have none.
 void check_placing(CaseValues& in) {
   const auto refuse = [&](std::string_view key) {
     in.fault(key,
@@ -163,7 +163,7 @@ void check_placing(CaseValues& in) {
   if (in.n_items("initial.region") > 0) refuse("initial.region[0]");
 }
 
-/// For the versions that change it: a case made for the other sign runs as well.
+/// Warns of the change of sign between versions: a case made for the other sign is valid too.
 void warn_of_sign(Case& c) {
   bool turns = c.initial.angular_velocity != 0.0;
   for (const InitialRegion& region : c.initial.regions) turns |= region.angular_velocity != 0.0;
@@ -173,7 +173,7 @@ void warn_of_sign(Case& c) {
         "this version it was counter-clockwise");
 }
 
-/// The key of earlier versions has the other sign.
+/// The key of earlier versions has the opposite sign.
 void take_angle(CaseValues& in, Case& c) {
   if (!in.has("initial.angle") || !may_be_free(c)) return;
   if (in.has("initial.turn"))
@@ -217,10 +217,10 @@ void check_operator(CaseValues& in, const Case& c) {
   if (!why.empty()) in.fault("solver.operator", std::string(why), "\"auto\" or \"sparse\"");
 }
 
-/// What no time step does (model/steps/step_table.hpp).
+/// Refuses combinations that no time step supports (model/steps/step_table.hpp).
 void check_combinations(CaseValues& in, const Case& c) {
   const dynamics::Features all = features_of(c);
-  std::vector<const dynamics::Limit*> refusals;  // all, before one makes the key of another bad
+  std::vector<const dynamics::Limit*> refusals;  // collected first: refusing one key affects others
   for (const dynamics::Limit& limit : dynamics::step_limits())
     if (limit.is_refusal() && limit.holds_for(all) &&
         in.good({row_of(c, limit.at).key, row_of(c, limit.with).key}))

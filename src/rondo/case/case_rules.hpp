@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What the table of keys cannot say: rules between several keys of a case. Each collects
-/// faults in `in`.
+/// @file  Rules that involve several keys of a case, which the table of keys cannot express. Each
+/// function collects faults in `in`.
 #pragma once
 #include <optional>
 #include <string>
@@ -10,42 +10,42 @@
 
 namespace rondo::study {
 
-/// What only one kind of analysis asks of a case. @pre all keys are read
+/// Rules of one kind of analysis. @pre all keys are read
 void check_analysis(CaseValues& in, Case& c);
 
-/// All other rules, and the warnings. @pre what means nothing to the analysis is left out
+/// All other rules, and the warnings. @pre keys without meaning for the analysis are left out
 void check_case(CaseValues& in, Case& c);
 
-/// Parameters of materials: those of their models, stable; fills Case::material and regions.
+/// Checks that materials suit their models and are stable; fills Case::material and regions.
 void check_materials(CaseValues& in, Case& c);
 
-/// That rubber does not start in steady rolling, and its default of time.safety.
+/// Checks that rubber does not start in steady rolling, and sets its default of time.safety.
 void check_rubber(CaseValues& in, Case& c);
 
-/// What a wheel in three dimensions has besides, and what it does not go with; of a plane body,
-/// that it has nothing of it.
+/// Rules of a wheel in three dimensions and of combinations that it excludes; for a plane body,
+/// checks that it has no key of such a wheel.
 void check_solid(CaseValues& in, Case& c);
 
-/// Rules of [rim], and where its supports are at rest if the case does not say.
+/// Rules of [rim]; sets the rest positions of its supports if the case does not give them.
 void check_rim(CaseValues& in, Case& c);
 
-/// Rules of the scheme "hati", and that it says which part is fine.
+/// Rules of the scheme "hati"; checks that the case says which part is fine.
 void check_hati(CaseValues& in, Case& c);
 
-/// A part of a disk goes by its layers, one of a mesh by its surface. @param table that names it
+/// A part of a disk is given by layers, one of a mesh by a surface. @param table of the part
 void check_part(CaseValues& in, const Case& c, const std::string& table);
 
-/// There is ground, and it is flat. @param who needs it
+/// Checks that there is ground and that it is flat. @param who needs it
 void check_flat_ground(CaseValues& in, const Case& c, std::string_view who);
 
-/// Of initial.state = "steady-rolling".
+/// Rules of initial.state = "steady-rolling".
 void check_steady_start(CaseValues& in, const Case& c);
 
-/// Height of the ground where it is flat below the whole body at t = 0. @pre there is ground,
-/// without faults                                                                            [m]
+/// Height of the ground if it is flat below the whole body at t = 0. @pre there is ground without
+/// faults                                                                            [m]
 std::optional<double> flat_ground_below(const Case& c);
 
-/// For keys that another key requires; says nothing where the kind of analysis is at fault.
+/// Requires a key because another key is given; adds no fault if the kind of analysis has one.
 void require(CaseValues& in, std::string_view key);
 
 }  // namespace rondo::study

@@ -23,13 +23,13 @@ namespace {
 
 constexpr std::size_t largest_file = 16'000'000;  ///< bytes
 constexpr TomlShape case_shape{"a case file", is_case_table, is_case_list};
-constexpr std::size_t longest_found = 60;  ///< characters of a value repeated in a message
+constexpr std::size_t longest_found = 60;  ///< characters of a value quoted in a message
 
 Fault file_fault(const std::string& name, std::string message, std::string allowed = {}) {
   return {name, 0, 0, "", "", std::move(message), std::move(allowed)};
 }
 
-/// A chain of dotted keys becomes as many nested tables, and the parser recurses into them.
+/// A chain of dotted keys becomes equally many nested tables, into which the parser recurses.
 bool nested_too_deeply(std::string_view text) {
   int dots = 0;
   bool comment = false;
@@ -143,7 +143,7 @@ std::string joined(const std::string& table, std::string_view key) {
   return table.empty() ? part : table + "." + part;
 }
 
-/// Where tables are opened: into what, of which kind of file, from which source.
+/// Where tables are opened: the target, the kind of file, the source.
 struct Opening {
   CaseSource& into;
   const TomlShape& shape;
@@ -152,7 +152,7 @@ struct Opening {
 
 void add_table(const Opening& in, const std::string& path, const toml::table& table);
 
-/// A list of tables of a case is opened; anything else in the place of one is no list.
+/// Opens a list of tables of a case; a value of another type in its place is not a list.
 bool add_list(const Opening& in, const std::string& path, const toml::node& node) {
   const toml::array* list = node.as_array();
   if (!in.shape.is_list(path) || list == nullptr) return false;
@@ -167,7 +167,7 @@ bool add_list(const Opening& in, const std::string& path, const toml::node& node
   return true;
 }
 
-/// Tables of a case are opened; any other table is a value, which the reader will refuse.
+/// Opens a table of a case; any other table is a value, which the reader will refuse.
 void add_table(const Opening& in, const std::string& path, const toml::table& table) {
   for (const auto& [key, node] : table) {
     const std::string inner = joined(path, key.str());
@@ -183,7 +183,7 @@ void add_table(const Opening& in, const std::string& path, const toml::table& ta
   }
 }
 
-/// Removes a key and all below it.
+/// Removes a key and all keys below it.
 void remove(CaseSource& from, const std::string& path) {
   const auto at_or_below = [&](const auto& entry) {
     return entry.first == path || entry.first.starts_with(path + ".") ||
@@ -194,7 +194,7 @@ void remove(CaseSource& from, const std::string& path) {
   std::erase_if(from.lists, at_or_below);
 }
 
-/// A setting of one of several keys that exclude each other takes the place of the file's others.
+/// A setting of one of several exclusive keys replaces the others in the file.
 void remove_rivals(CaseSource& from, std::string_view path) {
   static const std::vector<std::string_view> step{"time.step", "time.safety"},
       height{"motion.height", "analysis.load"},
@@ -209,7 +209,7 @@ void remove_rivals(CaseSource& from, std::string_view path) {
       });
 }
 
-/// Of a material likewise: one of them gives its change of volume.
+/// Likewise for a material: only one key gives its change of volume.
 void remove_rival_of_volume(CaseSource& from, std::string_view path) {
   const std::string_view table = table_of(path), leaf = leaf_of(path);
   if (without_indices(table) != "material" && without_indices(table) != "material.region[]") return;
@@ -221,19 +221,19 @@ void remove_rival_of_volume(CaseSource& from, std::string_view path) {
     }
 }
 
-/// "v = TEXT" as a table with the one key v; the text as a string where it is not TOML.
+/// "v = TEXT" as a table with the key v; if TEXT is not TOML, it is taken as a string.
 toml::table parsed_setting(const std::string& text) {
   if (!nested_too_deeply(text)) {
     try {
       toml::table parsed = toml::parse("v = " + text);
       if (parsed.size() == 1) return parsed;
-    } catch (const toml::parse_error&) {  // not TOML: a string
+    } catch (const toml::parse_error&) {  // not TOML: it is a string
     }
   }
   return toml::parse("v = " + toml_string(as_utf8(text)));
 }
 
-/// "name" of "name[3]"; the part itself where it has no such end.
+/// "name" for "name[3]"; the part itself if it has no index.
 std::string_view without_index(std::string_view part) {
   const auto begin = part.find('[');
   if (begin == std::string_view::npos || !part.ends_with(']')) return part;
@@ -255,8 +255,8 @@ bool is_dotted_key(std::string_view path) {
   }
 }
 
-/// A setting of a table of a list: one that is there, or the one after the last. Others are no
-/// setting.
+/// Finds the table of a list that a setting names: an existing one, or the one after the last.
+/// False: the setting is invalid.
 bool find_items(CaseSource& into, const std::string& path, const std::string& name) {
   for (auto end = path.find(']'); end != std::string::npos; end = path.find(']', end + 1)) {
     const auto begin = path.rfind('[', end);
@@ -348,7 +348,7 @@ std::string CaseSource::written(const Place& place) const {
     const auto at = static_cast<std::size_t>(line - 1);
     if (line < 1 || at >= source.line_begin.size()) return source.text.size();
     std::size_t i = source.line_begin[at];
-    for (int c = 1; c < column && i < source.text.size(); ++c)  // columns count characters
+    for (int c = 1; c < column && i < source.text.size(); ++c)  // columns are counted in characters
       while (++i < source.text.size() && (static_cast<unsigned char>(source.text[i]) >> 6) == 2) {
       }
     return i;

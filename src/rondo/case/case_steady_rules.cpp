@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Rules of steady rolling: a disk of equal sectors on flat ground, and of height and load, speed
-/// and traction or torque one each (docs/cases.md).
+/// Rules of steady rolling: a disk of equal sectors on flat ground; either height or load, and one
+/// of speed, traction and torque, is given (docs/cases.md).
 #include <fmt/format.h>
 
 #include <cmath>
@@ -44,7 +44,7 @@ void check_steady_motion(CaseValues& in, const Case& c) {
     check_constant(in, item_of("load.pressure", k) + ".value", c.pressures[k].pressure);
 }
 
-/// Of each pair one is given.
+/// Exactly one key of each pair must be given.
 void check_given(CaseValues& in) {
   constexpr std::string_view height = "motion.height", load = "analysis.load",
                              speed = "motion.speed", traction = "analysis.traction",
@@ -112,7 +112,7 @@ void check_start_body(CaseValues& in, const Case& c) {
              "at least 2; or initial.state = \"stationary\"");
 }
 
-/// What moves at the start is no steady state; later it may.
+/// A quantity that changes at the start has no steady state; it may change later.
 void check_still(CaseValues& in, std::string_view key, const dynamics::Table& value) {
   if (in.good({key}) && value.slope(0.0) != 0.0)
     in.fault(key, "changes from t = 0 on, but a start in steady rolling needs one value",
@@ -148,7 +148,7 @@ std::optional<double> flat_ground_below(const Case& c) {
   const double from = c.motion.start_x - reach, to = c.motion.start_x + reach;
   std::optional<double> height;
   const std::size_t last = shape.profile.size() - 1;
-  for (std::size_t k = 0; k < last; ++k) {  // the end segments go on for ever
+  for (std::size_t k = 0; k < last; ++k) {  // the end segments are infinite
     const Vec2 a = shape.profile[k], b = shape.profile[k + 1];
     if ((k > 0 && a.x >= to) || (k + 1 < last && b.x <= from)) continue;
     if (a.y != b.y || (height && *height != a.y)) return std::nullopt;

@@ -12,7 +12,7 @@ constexpr std::string_view yaw =
     "a yaw rate is not known: its terms are small in a tyre's contact; motion.slip_angle may be a "
     "table";
 
-// A key of the same name in the table that was written comes before the one that stands here.
+// A key with the same name in the table that the user wrote takes precedence over these.
 constexpr Synonym synonyms[] = {
     {"mu", "ground.friction"},
     {"friction_coefficient", "ground.friction"},

@@ -64,7 +64,7 @@ void CaseValues::check_key(const std::string& path, const CaseValue& value) {
         keys_beside(*keys_, path));
 }
 
-/// At the first item that is no table, if it is an array.
+/// Adds a fault at the first item that is not a table, if the value is an array.
 void CaseValues::not_a_list(const std::string& path, const CaseValue& value) {
   const auto item = std::find_if(value.items.begin(), value.items.end(),
                                  [](const CaseValue& v) { return v.type != ValueType::table; });
@@ -152,9 +152,9 @@ void CaseValues::fault_at_item(std::string_view key, int item, std::string messa
 
 void CaseValues::missing(std::string_view key) {
   bad_keys_.emplace(key);
-  std::string_view absent;  // the outermost table that is not there
+  std::string_view absent;  // the outermost missing table
   for (std::string_view table = table_of(key); !table.empty(); table = table_of(table)) {
-    if (source_.values.contains(table)) return;  // has its fault already: is no table
+    if (source_.values.contains(table)) return;  // it already has a fault: it is not a table
     if (!source_.tables.contains(table)) absent = table;
   }
   if (absent.empty())
@@ -173,7 +173,7 @@ void CaseValues::add_missing_tables() {
   missing_.clear();
 }
 
-/// In turn, and how many more there are.
+/// Returns the first faults of each key in order, and the number of the others.
 std::vector<Fault> CaseValues::first_of_each_key() {
   std::vector<Fault> faults;
   std::map<std::string, std::size_t> counts;
@@ -231,7 +231,7 @@ void CaseValues::take(const Reading& in, bool& target) {
   target = in.value.boolean;
 }
 
-/// A text that must be given must not be empty; one of a choice must be one of the choices.
+/// A required text must not be empty; a choice must be one of the allowed words.
 std::optional<std::string> CaseValues::text(const Reading& in) {
   if (in.value.type != ValueType::text) return wrong_type(in, in.value, "a string"), std::nullopt;
   if (in.allowed.is_choice() && !find_choice(in.allowed, in.value.text))
@@ -276,7 +276,7 @@ bool CaseValues::pair(const Reading& in, const CaseValue& value, std::array<doub
   return finite(in, value.items[1], target[1]) && first;
 }
 
-/// Empty where any of the pairs is at fault; the first few faults are told.
+/// Empty if any pair is faulty; the first few faults are reported.
 std::vector<std::array<double, 2>> CaseValues::pairs(const Reading& in) {
   std::vector<std::array<double, 2>> points;
   std::size_t n_bad = 0;
@@ -337,7 +337,7 @@ void CaseValues::take_points(const Reading& in, dynamics::Table& target) {
   if (!points.empty() && n_bad == 0) target = dynamics::Table(std::move(points));
 }
 
-/// Each once, ascending.
+/// Each number once, ascending.
 void CaseValues::take(const Reading& in, std::vector<int>& target) {
   if (in.value.type != ValueType::array) return wrong_type(in, in.value, "an array of integers");
   if (in.value.items.empty()) return bad(in, in.value, "must have at least one item");
@@ -360,7 +360,7 @@ void CaseValues::take(const Reading& in, std::vector<std::array<double, 2>>& tar
   if (found.size() == in.value.items.size()) target = found;
 }
 
-/// Relative to the case file, as the mesh; also where --set names it.
+/// The path is relative to the case file, like that of the mesh, even if --set gives it.
 void CaseValues::take_profile_file(const Reading& in, std::vector<Vec2>& target) {
   const auto folder = std::filesystem::path(source_.sources[0].name).parent_path();
   const std::filesystem::path file = folder / in.value.text;
@@ -380,7 +380,7 @@ void CaseValues::take_profile_file(const Reading& in, std::vector<Vec2>& target)
   }
 }
 
-/// "flat" leaves the profile as it is.
+/// The text "flat" leaves the profile unchanged.
 void CaseValues::take(const Reading& in, std::vector<Vec2>& target) {
   const CaseValue& value = in.value;
   if (value.type == ValueType::text && value.text == "flat") return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Typed access to the values of a case file or a study file: each read checks type and
-/// bounds against the table of keys and collects faults, so that one reading reports them all.
+/// @file  Typed access to the values of a case file or a study file. Each read checks type and
+/// bounds against the table of keys and collects faults, so that one pass reports all of them.
 #pragma once
 #include <array>
 #include <initializer_list>
@@ -20,57 +20,57 @@
 
 namespace rondo::study {
 
-/// The table of keys of a kind of file, for what is said of its keys. Paths may have indices.
+/// The table of keys of a kind of file, as needed for messages. Paths may have indices.
 struct KeysOfFile {
   bool (*is_key)(std::string_view path);
   bool (*is_table)(std::string_view path);
   bool (*is_list)(std::string_view path);
-  std::string (*keys_in)(std::string_view table);    ///< as one list; "": at the top
-  std::string (*allowed_at)(std::string_view path);  ///< what a key may be
-  std::string (*meant_by)(std::string_view path);    ///< of an unknown key; may be empty
+  std::string (*keys_in)(std::string_view table);    ///< as one list; "": those at the top
+  std::string (*allowed_at)(std::string_view path);  ///< allowed values of a key
+  std::string (*meant_by)(std::string_view path);    ///< suggestion for an unknown key, or ""
 };
 extern const KeysOfFile keys_of_case;
 
 class CaseValues {
  public:
-  /// Finds keys that do not exist, or stand for a table or a list of tables but are none.
+  /// Finds keys that do not exist, and keys of tables or lists of tables with another type.
   explicit CaseValues(CaseSource source, const KeysOfFile& keys = keys_of_case);
 
   [[nodiscard]] bool has(std::string_view key) const { return source_.values.contains(key); }
   [[nodiscard]] bool has_table(std::string_view table) const;
-  /// Null: nothing is given for the key.
+  /// Null: no value is given for the key.
   [[nodiscard]] const CaseValue* find(std::string_view key) const;
-  /// The line in the file of a table, or of the table that it is in; 0: there is none.
+  /// The line of a table, or of the table that contains it, in the file; 0: there is none.
   [[nodiscard]] int line_of(std::string_view table) const { return place_of_table(table).line; }
-  /// Something is given for the key, and it is an array.
+  /// Whether an array is given for the key.
   [[nodiscard]] bool has_array(std::string_view key) const;
-  /// Tables in a list; they are item_of(list, 0) and so on.
+  /// Number of tables in a list; they are item_of(list, 0) and so on.
   [[nodiscard]] std::size_t n_items(std::string_view list) const;
-  /// None of the keys has a fault so far, nor is it missing.
+  /// Whether none of the keys has a fault so far or is missing.
   [[nodiscard]] bool good(std::initializer_list<std::string_view> keys) const;
 
-  /// Reads a value into its field, which keeps its default where the key is absent or at fault.
-  /// @param path of a table of a list with its number
+  /// Reads a value into its field, which keeps its default if the key is absent or faulty.
+  /// @param path with the number of the table, if that is in a list
   void read(const CaseKey& key, const std::string& path, const CaseMember& field) {
     read(key.allowed, key.use.required, path, field);
   }
-  /// The same by what is allowed. @param required  of a text: it must not be empty
+  /// The same with explicit bounds. @param required  for a text: it must not be empty
   void read(const Allowed& allowed, bool required, const std::string& path,
             const CaseMember& field);
 
-  /// A fault of a key: at its value, else at its table; or at an item of its array.
+  /// Adds a fault of a key: at its value, else at its table; or at an item of its array.
   void fault(std::string_view key, std::string message, std::string allowed = {});
-  /// A fault of a key that has none so far.
+  /// Adds a fault of a key, unless it already has one.
   void refuse(std::string_view key, std::string message, std::string allowed) {
     if (good({key})) fault(key, std::move(message), std::move(allowed));
   }
   void fault_at_item(std::string_view key, int item, std::string message);
   void missing(std::string_view key);
 
-  /// Of every value and table given, for faults that only show once the case is put together.
+  /// Places of all given values and tables, for faults found only once the case is complete.
   [[nodiscard]] std::map<std::string, KeyPlace> places() const;
 
-  /// @throws InputError if there are faults, in the file's order, then those of the settings.
+  /// @throws InputError if there are faults: in the order of the file, then those of the settings.
   void finish();
 
  private:
@@ -78,7 +78,7 @@ class CaseValues {
     Place place;
     Fault fault;
   };
-  /// What is allowed for the key being read, its path and what is given for it.
+  /// The key that is being read: its allowed values, its path and the given value.
   struct Reading {
     const Allowed& allowed;
     bool required;
@@ -117,9 +117,9 @@ class CaseValues {
   const KeysOfFile* keys_;
   std::vector<Located> faults_;
   std::set<std::string, std::less<>> bad_keys_;
-  std::map<std::string, std::vector<std::string>, std::less<>> missing_;  ///< by absent table
+  std::map<std::string, std::vector<std::string>, std::less<>> missing_;  ///< keys by absent table
   std::string profile_file_;        ///< of the ground; empty: there is none
-  std::vector<int> profile_lines_;  ///< in it, of the points
+  std::vector<int> profile_lines_;  ///< lines of the points in that file
 };
 
 }  // namespace rondo::study

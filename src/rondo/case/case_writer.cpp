@@ -15,7 +15,7 @@ std::string pair_text(double a, double b) {
   return fmt::format("[{}, {}]", toml_number(a), toml_number(b));
 }
 
-/// One pair a line, with room for long tables.
+/// One pair per line, for long tables.
 template <class Pairs, class Text>
 std::string pairs_text(const Pairs& pairs, Text&& text) {
   std::string said = "[";
@@ -23,14 +23,14 @@ std::string pairs_text(const Pairs& pairs, Text&& text) {
   return said + "\n]";
 }
 
-/// The TOML of a value, by the type of its field.
+/// The TOML text of a value, depending on the type of its field.
 struct ValueText {
   const Allowed& allowed;
 
   std::string operator()(const int* value) const { return fmt::format("{}", *value); }
   std::string operator()(const double* value) const { return toml_number(*value); }
   std::string operator()(const std::optional<double>* value) const {
-    return *value ? toml_number(**value) : "";  // left out, as is_left_out() has it
+    return *value ? toml_number(**value) : "";  // left out, see is_left_out()
   }
   std::string operator()(const bool* value) const { return *value ? "true" : "false"; }
   std::string operator()(const std::string* value) const { return toml_string(*value); }
@@ -70,7 +70,7 @@ struct ValueText {
   }
 };
 
-/// One of several keys of a table in a list, of which another one is given.
+/// Whether the key is one of several exclusive keys in a table of a list, and another one is given.
 bool is_left_out(const CaseMember& field) {
   if (const auto* number = std::get_if<std::optional<double>*>(&field)) return !**number;
   if (const auto* numbers = std::get_if<std::vector<int>*>(&field)) return (*numbers)->empty();
@@ -78,7 +78,7 @@ bool is_left_out(const CaseMember& field) {
   return text && (*text)->empty();
 }
 
-/// The keys of the k-th table of its kind that say something in this case, a line each.
+/// The keys of the k-th table of its kind that have a meaning in this case, one line each.
 std::string lines_of(const CaseTable& table, std::size_t k, Case& c) {
   std::string lines;
   for (const CaseKey& key : keys_of(table))
@@ -95,7 +95,7 @@ std::string value_text(const CaseKey& key, const CaseMember& field) {
 }
 
 std::string write_case(const Case& c) {
-  Case fields = c;  // the accessors are those of a case that may change
+  Case fields = c;  // the accessors need a case that is not const
   std::string text;
   for (const CaseTable& table : case_tables())
     for (std::size_t k = 0; k < table.count(c); ++k)

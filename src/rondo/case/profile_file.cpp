@@ -16,18 +16,18 @@ namespace rondo::study {
 namespace {
 
 constexpr std::size_t most_faults = 5;
-constexpr std::size_t longest_field = 40;  ///< characters of a field repeated in a message
+constexpr std::size_t longest_field = 40;  ///< characters of a field quoted in a message
 constexpr std::string_view blank = " \t\r\v\f";
 constexpr std::string_view allowed =
     "x and y in m, comma or white space between x and y, one point a line from left to right";
 
 struct Token {
   std::string_view text;
-  std::size_t begin = 0;  ///< in its line
+  std::size_t begin = 0;  ///< position in its line
 };
 
-/// The fields of a line: what commas or white space divide. Between two commas there is an empty
-/// one.
+/// The fields of a line, separated by commas or white space. Between two commas there is an empty
+/// field.
 std::vector<Token> tokens_of(std::string_view line) {
   std::vector<Token> tokens;
   bool after_comma = false;
@@ -42,7 +42,7 @@ std::vector<Token> tokens_of(std::string_view line) {
   return tokens;
 }
 
-/// Also of what is out of range; then the value is infinite.
+/// Also true if the number is out of range; its value is then infinite.
 bool is_number(std::string_view text, double& value) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -50,17 +50,17 @@ bool is_number(std::string_view text, double& value) {
   return error != std::errc::invalid_argument && end == text.data() + text.size();
 }
 
-/// As a number begins; no name of a column does.
+/// Whether it begins like a number; the name of a column does not.
 bool begins_as_number(std::string_view text) {
   return begins_with_foreign_minus(text) ||
          (!text.empty() && std::string_view("0123456789+-.").find(text[0]) != text.npos);
 }
 
-/// Names of columns: words with letters. "0;0" is none, but numbers that are divided otherwise.
+/// Whether these are names of columns: words with letters, not numbers such as "0;0".
 bool is_header(const std::vector<Token>& tokens) {
   const auto has_letter = [](const Token& t) {
     return std::ranges::any_of(t.text, [](unsigned char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c >= 0x80;  // or of UTF-8
+      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c >= 0x80;  // or part of UTF-8
     });
   };
   double value = 0.0;
@@ -76,7 +76,7 @@ constexpr const char* instead_of_road =
     "two columns, x and y in m: one section along the road, exported as a CSV file by an OpenCRG "
     "tool (the heights z over u at one v)";
 
-/// Keywords with which lines of the head of an OpenCRG file begin.
+/// Keywords that begin the lines in the header of an OpenCRG file.
 bool is_opencrg(std::string_view text) {
   constexpr std::size_t head = 65536;
   text = text.substr(0, head);
@@ -86,14 +86,14 @@ bool is_opencrg(std::string_view text) {
       });
 }
 
-/// Why a line has not two numbers.
+/// The reason why a line does not have two numbers.
 std::string cause_in_line(std::string_view line) {
   if (line.find(';') != line.npos) return "; a semicolon divides no numbers here";
   const std::string comma = cause_in_items(line);
   return comma.empty() ? cause_in(line) : comma;
 }
 
-/// One file while it is read.
+/// The state of reading one file.
 struct Reading {
   const std::string& name;
   ProfileFile& into;
@@ -141,7 +141,7 @@ ProfileFile parse_profile(const std::string& name, std::string_view text) {
     found.faults.push_back({name, 0, 0, "ground.profile", "", is_road, instead_of_road});
     return found;
   }
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // the mark of UTF-8
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark of UTF-8
   while (!text.empty() && found.faults.size() < most_faults) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = text.substr(0, end);

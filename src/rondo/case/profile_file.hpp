@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The ground's profile from a CSV file: two columns, x and y in m (docs/cases.md,
+/// @file  The profile of the ground from a CSV file with two columns, x and y in m (docs/cases.md,
 /// [ground]).
 #pragma once
 #include <filesystem>
@@ -12,21 +12,21 @@
 
 namespace rondo::study {
 
-/// They stand in the case.toml of the results, which has an end to its length.
+/// The points are written to case.toml of the results, whose length is limited.
 inline constexpr std::size_t most_profile_points = 100'000;
 
 struct ProfileFile {
-  std::vector<Vec2> points;   ///< as they stand: whether they make a ground is not asked here [m]
-  std::vector<int> lines;     ///< of the points, from 1
-  std::vector<Fault> faults;  ///< the first few; there are points only where there are none
+  std::vector<Vec2> points;   ///< as in the file; not checked as a profile here [m]
+  std::vector<int> lines;     ///< line of each point, from 1
+  std::vector<Fault> faults;  ///< the first few; if there are any, `points` is empty
 };
 
-/// What other tools call a road is none of these files. @throws InputError: an OpenCRG file by its
-/// name, whose text may be longer than is read
+/// Road files of other tools are not read. @throws InputError for an OpenCRG file, by its name,
+/// because its text may be longer than the limit
 void refuse_road(const std::filesystem::path& file);
 
-/// Lines of two numbers with a comma or white space between them. `#` begins a comment; the first
-/// line may be a header, in which nothing is a number. @param name  of the file, for its faults
+/// Lines of two numbers separated by a comma or white space. `#` begins a comment; the first line
+/// may be a header without numbers. @param name  of the file, for its faults
 ProfileFile parse_profile(const std::string& name, std::string_view text);
 
 }  // namespace rondo::study

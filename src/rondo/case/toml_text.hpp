@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Values as TOML text that reads back to the same bits.
+/// @file  Values as TOML text that reads back bit for bit.
 #pragma once
 #include <string>
 #include <string_view>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Where threads wait for each other between the steps of a run.
+/// @file  A barrier at which threads wait for each other between the steps of a run.
 #pragma once
 #include <atomic>
 
 namespace rondo {
 
-/// Looks for some microseconds, then sleeps: on a machine whose cores are busy with other work the
-/// thread that is waited for needs the core of the one that waits. (Barriers of OpenMP keep it for
-/// milliseconds, if the user does not set OMP_WAIT_POLICY.)
+/// A waiting thread spins for some microseconds, then sleeps: if the cores are busy with other
+/// work, the thread it waits for needs its core. (Barriers of OpenMP keep the core for milliseconds
+/// unless the user sets OMP_WAIT_POLICY.)
 class Barrier {
  public:
-  /// Comes back when `n_threads` threads have called it. The same number in every thread.
+  /// Returns when `n_threads` threads have called it. All threads must give the same number.
   void wait(unsigned n_threads) noexcept {
     const unsigned phase = phase_.load(std::memory_order_relaxed);
     if (arrived_.fetch_add(1, std::memory_order_acq_rel) + 1 == n_threads) {

@@ -22,7 +22,7 @@ std::size_t padded(std::size_t bytes) {
   return (bytes + 3) / 4 * 4;
 }
 
-/// Looks through a segment of notes: header, name and content of each, padded to four bytes.
+/// Searches a segment of notes: header, name and content of each, padded to four bytes.
 std::string id_in(const char* notes, std::size_t bytes) {
   constexpr std::string_view owner{"GNU\0", 4};
   for (std::size_t at = 0; at + sizeof(ElfW(Nhdr)) <= bytes;) {
@@ -41,7 +41,7 @@ std::string id_in(const char* notes, std::size_t bytes) {
   return {};
 }
 
-/// Of the program itself, which comes first: returning 1 ends the loop over its libraries.
+/// Called first for the program itself; returning 1 then ends the loop over its libraries.
 int look(dl_phdr_info* info, std::size_t, void* found) {
   for (int k = 0; k < info->dlpi_phnum; ++k) {
     const ElfW(Phdr)& segment = info->dlpi_phdr[k];

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Which program this is, to the bit: results of another one are not taken for its own.
+/// @file  Identifies the program exactly, so that results of a different build are not reused.
 #pragma once
 #include <string>
 
 namespace rondo {
 
-/// Hash of the modules of the library that the program, and the module of Python, are linked from;
-/// written by the build (cmake/modules_id.cmake).
+/// Hash of the library modules that the program and the Python module are linked from; the build
+/// writes it (cmake/modules_id.cmake).
 extern const char* const modules_id;
 
-/// What build_id() is from now on: modules_id, of those that have it. To be called first of all.
+/// Sets build_id(): modules_id, in programs that have it. Must be called before anything else.
 void set_build_id(std::string id);
 
-/// What was set; else the linker's hash of the running program (its GNU build id), in hexadecimal;
-/// empty where it was linked without.
+/// The identifier that was set, else the GNU build id that the linker gave the running program, in
+/// hexadecimal; empty if it was linked without one.
 [[nodiscard]] std::string build_id();
 
 }  // namespace rondo

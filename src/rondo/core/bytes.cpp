@@ -26,7 +26,7 @@ std::optional<std::size_t> bytes_in(const std::string& text) {
   const auto power = unit.size() == 1 ? prefixes.find(unit[0]) : std::string_view::npos;
   if (!unit.empty() && power == std::string_view::npos) return std::nullopt;
   if (!unit.empty()) amount *= std::pow(kilo, static_cast<double>(power + 1));
-  constexpr double most = 1e18;  // an exabyte: above it no number of bytes is meant
+  constexpr double most = 1e18;  // an exabyte; larger numbers are not meant as bytes
   if (!(amount >= 1.0 && amount <= most)) return std::nullopt;
   return static_cast<std::size_t>(amount);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Amounts of memory and disk as people write them.
+/// @file  Amounts of memory and disk space written for people.
 #pragma once
 #include <cstddef>
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace rondo {
 
-/// 2.5e9 for "2.5GB"; B, kB, MB, GB, TB, or KiB, MiB, GiB, TiB; none where `text` is not that.
+/// 2.5e9 for "2.5GB"; B, kB, MB, GB, TB, or KiB, MiB, GiB, TiB; none if `text` is not an amount.
 std::optional<std::size_t> bytes_in(const std::string& text);
 
 /// "512 MB", "1.8 TB".

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Tables of results and their units: what a column is called, its unit, what it means and
-/// where its numbers come from stand in one row; header, values, units for readers and the manual
-/// follow from it.
+/// @file  Tables of results: one row holds the name of a column,
+/// its unit, its meaning and the source of its numbers. Header,
+/// values, units for readers and the manual follow from these rows.
 #pragma once
 #include <array>
 #include <span>
@@ -31,7 +31,7 @@ std::vector<ColumnLabel> labels_of(std::span<const Column<Record>> columns) {
   return labels;
 }
 
-/// Adds the values of a record, in the order of the columns.
+/// Appends the values of a record, in the order of the columns.
 template <class Record>
 void append_values(std::span<const Column<Record>> columns, const Record& record,
                    std::vector<double>& values) {
@@ -45,8 +45,8 @@ inline std::vector<std::string> names_of(std::span<const ColumnLabel> labels) {
   return names;
 }
 
-/// Masses, forces and energies of a plane body are per metre of its width: what a quantity that is
-/// in `plane` there is in, of a body in three dimensions. A unit without a width stays.
+/// The unit in three dimensions of a quantity whose unit for a plane body is `plane`: masses,
+/// forces and energies of a plane body are per metre of width. Units without a width remain.
 constexpr std::string_view unit_of(std::string_view plane, bool is_solid) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 11> units{{
       {"kg/m", "kg"},
@@ -59,7 +59,7 @@ constexpr std::string_view unit_of(std::string_view plane, bool is_solid) {
       {"J/m", "J"},
       {"W/m", "W"},
       {"N", "N m"},      // a torque
-      {"N*s", "N*m*s"},  // of its impulse
+      {"N*s", "N*m*s"},  // the impulse of a torque
   }};
   if (is_solid)
     for (const auto& [of_plane, of_solid] : units)

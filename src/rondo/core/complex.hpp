@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Complex numbers: rotations of the plane and what commutes with them (docs/theory.md,
-/// section 1). A product with a vector turns and scales it: J = i turns by +90 degrees, R(θ) =
-/// e^{iθ}. std::complex is not used: its product tests for NaN at every call.
+/// @file  Complex numbers: rotations of the plane and operators that commute with them
+/// (docs/theory.md, section 1). A product with a vector turns and scales it: J = i turns by +90
+/// degrees, R(θ) = e^{iθ}. std::complex is not used: its product tests for NaN at each call.
 #pragma once
 #include <cmath>
 
@@ -68,22 +68,22 @@ inline Complex rotation_minus_one(double theta) noexcept {
   return {-2.0 * half * half, std::sin(theta)};
 }
 
-/// conj(a) b as complex numbers: of unit vectors, the rotation that takes a to b.
+/// conj(a) b as complex numbers; for unit vectors it is the rotation that takes a to b.
 constexpr Complex rotation_between(Vec2 a, Vec2 b) noexcept {
   return {dot(a, b), cross(a, b)};
 }
 
-// The frame of a contact: (normal, tangential), the tangent 90 degrees on from the normal.
+// The contact frame (normal, tangential): the tangent is the normal turned by +90 degrees.
 
 /// The rotation that takes (1, 0) to the normal. @pre |normal| = 1
 constexpr Complex frame_of(Vec2 normal) noexcept {
   return {normal.x, normal.y};
 }
-/// Components (normal, tangential) as a vector.
+/// The vector with the components (normal, tangential).
 constexpr Vec2 from_frame(Vec2 normal, Vec2 components) noexcept {
   return frame_of(normal) * components;
 }
-/// A vector's components (normal, tangential).
+/// The components (normal, tangential) of a vector.
 constexpr Vec2 to_frame(Vec2 normal, Vec2 vector) noexcept {
   return conj(frame_of(normal)) * vector;
 }

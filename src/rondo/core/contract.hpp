@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Contracts: a violation is a bug of ours. It prints the values given and aborts.
-/// RONDO_DEMAND is always on (O(1), at module borders); RONDO_ASSERT only without NDEBUG.
+/// @file  Contracts: a violation is a bug in rondo. It prints the values given and aborts.
+/// RONDO_DEMAND is always checked (O(1), at module borders); RONDO_ASSERT only without NDEBUG.
 #pragma once
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The user's faults and the machine's, as typed exceptions caught in apps/ only.
-/// Outcomes of the numerics are never exceptions: they are reports the caller reads.
+/// @file  Faults of the user and of the machine are typed exceptions, caught in apps/ only.
+/// Outcomes of numerical methods are never exceptions but reports that the caller reads.
 #pragma once
 #include <stdexcept>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace rondo {
 
-/// Exit codes of the program, and of work that it gives to other processes.
+/// Exit codes of the program and of its work in other processes.
 enum ExitCode : int {
   exit_done = 0,
   exit_input = 2,      ///< wrong input or usage
@@ -17,7 +17,7 @@ enum ExitCode : int {
   exit_interrupted = 130,
 };
 
-/// One thing that is wrong in what the user gave.
+/// One fault in the user's input.
 struct Fault {
   std::string file;     ///< case file, or "--set"; empty: not tied to a file
   int line = 0;         ///< from 1; 0: unknown
@@ -42,7 +42,7 @@ class InputError : public std::runtime_error {
   std::vector<Fault> faults_;
 };
 
-/// A fault of the command line: the option, what it was given, what is wrong, what to give.
+/// A fault of the command line: the option, its value, what is wrong, what is allowed.
 InputError request_error(const std::string& option, const std::string& found,
                          const std::string& message, const std::string& allowed);
 
@@ -51,7 +51,7 @@ class FileError : public std::runtime_error {
  public:
   FileError(const std::string& path, const std::string& what)
       : std::runtime_error(path + ": " + what) {}
-  /// The same with what is left, or what can be done.
+  /// The given error with a further text: what remains, or what the user can do.
   FileError(const FileError& error, const std::string& more)
       : std::runtime_error(std::string(error.what()) + "; " + more) {}
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Fields: a vector at each of a number of points, with two components in the plane and
-/// three in space. A Field owns its numbers and is seen as Vec2 or Vec3; a FieldView is what files
-/// and other languages are given, where only the number of components counts.
+/// three in space. A Field owns its numbers and gives access to them as Vec2 or Vec3. Files and
+/// other languages receive a FieldView, in which only the number of components matters.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -33,7 +33,7 @@ struct FieldView {
 
   [[nodiscard]] constexpr std::size_t size() const { return values.size() / components; }
   [[nodiscard]] constexpr bool empty() const { return values.empty(); }
-  /// (components) of a point.
+  /// The components at a point.
   [[nodiscard]] constexpr std::span<const double> operator[](std::size_t point) const {
     return values.subspan(point * components, components);
   }
@@ -54,14 +54,14 @@ struct MutableFieldView {
   [[nodiscard]] constexpr std::size_t size() const { return values.size() / components; }
 };
 
-/// A copy of its own.
+/// A copy of the values as vectors.
 template <class Vec>
 std::vector<std::remove_const_t<Vec>> to_vector(std::span<Vec> values) {
   return {values.begin(), values.end()};
 }
 
-/// A field of points × components. Whoever asks for the components that it has not breaks the
-/// contract; an empty field may be asked for either.
+/// A field of points × components. Access with the wrong number of components violates the
+/// contract, except that an empty field allows both.
 class Field {
  private:
   template <class Vec, class Self>
@@ -83,7 +83,7 @@ class Field {
   }
   Field(std::vector<Vec2> plane) noexcept : values_(std::move(plane)) {}
   Field(std::vector<Vec3> space) noexcept : values_(std::move(space)) {}
-  /// Keeps the storage where it has room, as a vector does.
+  /// Copies the values; reuses the storage if it is large enough, as std::vector does.
   template <class Vec>
   Field& operator=(const std::vector<Vec>& values) {
     if (auto* own = std::get_if<std::vector<Vec>>(&values_))
@@ -93,7 +93,7 @@ class Field {
     return *this;
   }
 
-  /// Empty, with storage for so many points.
+  /// Makes the field empty, with storage for the given number of points.
   void reserve(std::size_t points, std::size_t components) {
     *this = Field(0, components);
     std::visit([&](auto& v) { v.reserve(points); }, values_);
@@ -119,7 +119,7 @@ class Field {
   operator MutableFieldView() {
     return std::visit([](auto& v) { return MutableFieldView(v); }, values_);
   }
-  /// work(span of Vec2 or of Vec3)
+  /// Calls work(span of Vec2) or work(span of Vec3).
   template <class Work>
   void visit(Work&& work) {
     std::visit([&](auto& v) { work(std::span(v)); }, values_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The frame of the ground under a wheel that leans (docs/wheel3d.md): t1 along the heading
-/// of the wheel, n out of the ground, t2 = t1 × n. Components in it are (t1, n, t2).
+/// @file  The ground frame of a wheel with camber (docs/wheel3d.md): t1 along the heading of the
+/// wheel, n out of the ground, t2 = t1 × n. Components in it are (t1, n, t2).
 #pragma once
 #include <cmath>
 
@@ -10,15 +10,15 @@ namespace rondo {
 
 class GroundFrame {
  public:
-  /// @param camber γ [rad]: n is (0, cos γ, sin γ) in the axes of the wheel; 0: both have the same
+  /// @param camber γ [rad]: n is (0, cos γ, sin γ) in the axes of the wheel; 0: the frames coincide
   explicit GroundFrame(double camber = 0.0) noexcept
       : cos_(std::cos(camber)), sin_(std::sin(camber)) {}
 
-  /// From (t1, n, t2) to the axes of the wheel.
+  /// Transforms components (t1, n, t2) to the axes of the wheel.
   [[nodiscard]] constexpr Vec3 to_wheel(Vec3 a) const noexcept {
     return {a.x, cos_ * a.y - sin_ * a.z, sin_ * a.y + cos_ * a.z};
   }
-  /// From the axes of the wheel to (t1, n, t2).
+  /// Transforms components in the axes of the wheel to (t1, n, t2).
   [[nodiscard]] constexpr Vec3 from_wheel(Vec3 a) const noexcept {
     return {a.x, cos_ * a.y + sin_ * a.z, cos_ * a.z - sin_ * a.y};
   }

@@ -5,7 +5,7 @@
 
 namespace rondo {
 
-/// The subscript of an array for a number of a node, cell or row, which is an int and not negative.
+/// The array index of a node, cell or row, whose number is a non-negative int.
 [[nodiscard]] constexpr std::size_t at(int number) noexcept {
   return static_cast<std::size_t>(number);
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The larger of two numbers, without losing one that is none, as std::max does.
+/// @file  The larger of two numbers that, unlike std::max, never loses a NaN.
 #pragma once
 #include <cmath>
 
 namespace rondo {
 
-/// NaN if one of them is NaN.
+/// The larger number; NaN if one of them is NaN.
 inline double keep_larger(double a, double b) noexcept {
   return a >= b || std::isnan(a) ? a : b;
 }

@@ -16,7 +16,7 @@ LargeMemory::LargeMemory(std::size_t bytes) {
   if (whole == 0) return;
   void* memory = std::aligned_alloc(alignment, whole);
   if (!memory) throw std::bad_alloc();
-  if (alignment == huge_page) madvise(memory, whole, MADV_HUGEPAGE);  // a wish: it may be ignored
+  if (alignment == huge_page) madvise(memory, whole, MADV_HUGEPAGE);  // a hint: may be ignored
   std::memset(memory, 0, whole);
   data_.reset(memory);
 }

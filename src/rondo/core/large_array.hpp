@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Arrays for the fields of a run: aligned to cache lines, on huge pages where they are
-/// large (fewer misses of the table of pages), zero at first.
+/// @file  Arrays for the fields of a run: aligned to cache lines, on huge pages if they are large
+/// (fewer TLB misses), initially zero.
 #pragma once
 #include <cstddef>
 #include <memory>
@@ -8,11 +8,11 @@
 
 namespace rondo {
 
-/// The memory of such an array.
+/// The memory of a large array.
 class LargeMemory {
  public:
   LargeMemory() = default;
-  /// All bits 0. @throws std::bad_alloc
+  /// Allocates zeroed memory. @throws std::bad_alloc
   explicit LargeMemory(std::size_t bytes);
 
   [[nodiscard]] void* data() const noexcept { return data_.get(); }
@@ -30,7 +30,7 @@ class LargeArrayOf {
 
  public:
   LargeArrayOf() = default;
-  /// n numbers, all 0. @throws std::bad_alloc
+  /// Allocates n numbers, all 0. @throws std::bad_alloc
   explicit LargeArrayOf(std::size_t n) : memory_(n * sizeof(T)), size_(n) {}
 
   [[nodiscard]] T* data() noexcept { return static_cast<T*>(memory_.data()); }

@@ -11,7 +11,7 @@ namespace {
 struct Living {
   std::mutex mutex;
   int count = 0;
-  int before = 1;  ///< threads, when there was none
+  int before = 1;  ///< number of threads before the first object
 };
 
 Living& living() {

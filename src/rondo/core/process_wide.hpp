@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What libraries have once for the whole process, for calls from several threads.
+/// @file  State that libraries have once per process, made safe for calls from several threads.
 #pragma once
 #include <mutex>
 
 namespace rondo {
 
-/// OpenBLAS on one thread while it lives, so that its sums have one order: the same bits on any
-/// machine with the same kernels, whatever its number of cores. Sparse factorisations (CHOLMOD)
-/// call it too. The last of several that live at once, in any threads, gives the number back what
-/// it was.
+/// Keeps OpenBLAS on one thread during its lifetime, so that sums have one order and the same bits
+/// on any machine with the same kernels, whatever its number of cores. Sparse factorisations
+/// (CHOLMOD) call it too. Of several objects that live at once, in any threads, the last one
+/// restores the previous number of threads.
 class OneBlasThread {
  public:
   OneBlasThread();
@@ -17,11 +17,11 @@ class OneBlasThread {
   OneBlasThread& operator=(const OneBlasThread&) = delete;
 };
 
-/// OpenBLAS on one thread during a call into a library that others have loaded: the last of several
-/// at once gives back the number that was before the first, also while a OneBlasThread lives on,
-/// which must be made and end within one. OpenMP, which CHOLMOD calls too, is on one thread as
-/// well: its threads do not survive a fork of the process, and a loop of it would then wait for
-/// them.
+/// Keeps OpenBLAS on one thread during a call into a library that other code has loaded too. The
+/// last of several objects at once restores the number that was set before the first, even if a
+/// OneBlasThread still lives: that is made within one such object and ends within this or another.
+/// OpenMP, which CHOLMOD also calls, is on one thread as well: its threads do not survive a fork of
+/// the process, and a parallel loop would then wait for them forever.
 class BorrowedBlas {
  public:
   BorrowedBlas();
@@ -30,15 +30,15 @@ class BorrowedBlas {
   BorrowedBlas& operator=(const BorrowedBlas&) = delete;
 
  private:
-  int levels_;  ///< of OpenMP, before
+  int levels_;  ///< of OpenMP, to be restored
 };
 
-/// From now on, in a process that is forked from this one, the thread that goes on works without
-/// other threads of OpenMP: it still counts on those of its parent, which a child does not have.
+/// From this call on, a process forked from this one works without other threads of OpenMP: it
+/// would still count on the threads of its parent, which the child does not have.
 void work_alone_in_forks();
 
-/// FFTW makes and destroys plans for one thread at a time: to be held meanwhile. Their transforms
-/// are free.
+/// FFTW makes and destroys plans in one thread at a time: lock this meanwhile. Executing a plan
+/// needs no lock.
 std::mutex& fftw_planner() noexcept;
 
 }  // namespace rondo

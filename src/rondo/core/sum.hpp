@@ -17,7 +17,7 @@ class CompensatedSum {
     sum_ = total;
   }
   [[nodiscard]] double value() const noexcept { return sum_ + correction_; }
-  /// Its two parts: with both the sum goes on to the same bits.
+  /// The two parts of the sum: from both, a resumed summation gives bitwise the same results.
   [[nodiscard]] double sum() const noexcept { return sum_; }
   [[nodiscard]] double correction() const noexcept { return correction_; }
 

@@ -13,7 +13,7 @@ inline std::size_t n_blocks(std::size_t n) noexcept {
   return (n + block_size - 1) / block_size;
 }
 
-/// The thread in hand and how many there are: of n pieces of work it does [first(n), last(n)).
+/// The current thread and the number of threads: of n items it processes [first(n), last(n)).
 struct Share {
   std::size_t thread = 0, n_threads = 1;
 
@@ -23,7 +23,7 @@ struct Share {
   }
 };
 
-/// body(begin, end, block) for each block of [0, n), on `threads` threads.
+/// Calls body(begin, end, block) for each block of [0, n), on `threads` threads.
 template <class Body>
 void for_blocks(std::size_t n, int threads, Body&& body) {
   const auto blocks = static_cast<std::ptrdiff_t>(n_blocks(n));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Plane vectors: places, velocities, forces. What turns them is a Complex (complex.hpp).
+/// @file  Plane vectors: positions, velocities, forces. A Complex (complex.hpp) turns them.
 #pragma once
 #include <cmath>
 

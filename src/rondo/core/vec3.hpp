@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Vectors of space. The axes of a wheel: x along its heading, y up, z along the axle, out
-/// of the plane in which it turns: `plane` is (x, y).
+/// @file  Vectors of space. The axes of a wheel: x along its heading, y up, z along the axle,
+/// normal to the plane in which it turns. The member `plane` is (x, y).
 #pragma once
 #include "rondo/core/complex.hpp"
 
@@ -13,7 +13,7 @@ struct Vec3 {
 
   constexpr Vec3() = default;
   constexpr Vec3(double a, double b, double c) noexcept : x(a), y(b), z(c) {}
-  /// A plane vector is one of space.
+  /// A plane vector is also a vector of space.
   constexpr Vec3(Vec2 plane, double axial = 0.0) noexcept : x(plane.x), y(plane.y), z(axial) {}
 
   [[nodiscard]] constexpr Vec2 plane() const noexcept { return {x, y}; }
@@ -37,7 +37,7 @@ constexpr Vec3 operator*(double s, Vec3 a) noexcept {
 constexpr Vec3 operator/(Vec3 a, double s) noexcept {
   return {a.x / s, a.y / s, a.z / s};
 }
-/// Turned about the axle.
+/// The vector turned about the axle.
 constexpr Vec3 operator*(Complex rotation, Vec3 a) noexcept {
   return {rotation * a.plane(), a.z};
 }

@@ -43,14 +43,14 @@ ElementMatrix geometric_stiffness(const mesh::Mesh& mesh, std::span<const Vec2> 
   return element_geometric_stiffness(corners.span(), {u.data(), corners.n}, law, mean);
 }
 
-/// Of the element's own M_e⁻¹ K_e [1/s²].
+/// Largest eigenvalue of the element's own M_e⁻¹ K_e [1/s²].
 double largest_eigenvalue(const mesh::Mesh& mesh, std::span<const Material> materials,
                           std::span<const Vec2> prestress, std::size_t e,
                           const NodalDilatation& dilatation) {
   const CellCorners corners = cell_corners(mesh, mesh.cells[e]);
   ElementLaw law = element_law(material_of(mesh, materials, e));
   ElementMatrix k = elastic_stiffness(mesh, e, law);
-  if (dilatation.holds(e)) law.mean_bulk = 0.0;  // its stress is that of the patches
+  if (dilatation.holds(e)) law.mean_bulk = 0.0;  // the patches give its volumetric stress
   if (!prestress.empty()) k += geometric_stiffness(mesh, prestress, e, law, dilatation);
   const std::array<double, 4> m =
       element_masses(corners.span(), material_of(mesh, materials, e).density);
@@ -62,12 +62,12 @@ double largest_eigenvalue(const mesh::Mesh& mesh, std::span<const Material> mate
 }
 
 double largest_of(const std::vector<double>& values) {
-  double largest = 0.0;  // of none
+  double largest = 0.0;  // if there is no element
   for (const double value : values) largest = std::max(largest, value);
   return largest;
 }
 
-/// (n) Element masses of a density for each cell, summed.
+/// (n) Sum of the element masses for the given density of each cell.
 template <class Density>
 std::vector<double> sum_at_nodes(const mesh::Mesh& mesh, Density&& density) {
   std::vector<double> sum(mesh.n_nodes(), 0.0);
@@ -124,7 +124,7 @@ void add_cell(BlockCsr& k, const mesh::Cell& cell, const ElementMatrix& e) {
       BlockCsr::Block* block =
           find_block(k, cell[static_cast<std::size_t>(a)], cell[static_cast<std::size_t>(b)]);
       if (!block) continue;
-      // Both triangles take the same entry of e, so that K is symmetric to the last bit.
+      // Both triangles use the same entry of e, so that K is bitwise symmetric.
       const auto entry = [&](int i, int j) { return e(std::min(i, j), std::max(i, j)); };
       (*block)[0] += entry(2 * a, 2 * b);
       (*block)[1] += entry(2 * a + 1, 2 * b);
@@ -133,7 +133,7 @@ void add_cell(BlockCsr& k, const mesh::Cell& cell, const ElementMatrix& e) {
     }
 }
 
-/// (x y) is (y x): K stays symmetric to the last bit.
+/// (x y) equals (y x) bit for bit, so K remains bitwise symmetric.
 void add_product(BlockCsr& k, double factor, std::span<const NodalDilatation::Term> terms) {
   for (const auto& [row, a] : terms)
     for (const auto& [column, b] : terms) {

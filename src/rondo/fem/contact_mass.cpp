@@ -10,7 +10,7 @@
 namespace rondo::fem {
 namespace {
 
-/// Nodes beside each contact node.
+/// Neighbours of each contact node.
 struct Beside {
   std::vector<std::vector<int>> by_edge, by_cell;  ///< (contact) ascending, each once
 };
@@ -37,7 +37,7 @@ Beside find_beside(const mesh::Mesh& mesh, std::span<const int> place, std::size
   return beside;
 }
 
-/// Of a mass field: sum, first and polar moment, about a center and over a length.
+/// Terms of a mass field: sum, first and polar moment, about a center, scaled by a length.
 Eigen::Vector4d terms(Vec2 x) {
   return {1.0, x.x, x.y, dot(x, x)};
 }

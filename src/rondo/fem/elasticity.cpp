@@ -30,7 +30,7 @@ std::vector<Material> instantaneous(std::span<const Material> materials) {
     if (!m.rubber) continue;
     const double kappa = m.rubber->bulk_modulus;
     const double mu = m.rubber->shear_modulus() * m.rubber->instantaneous();
-    if (!m.rubber->branches.empty()) {  // else to the same bits
+    if (!m.rubber->branches.empty()) {  // else the same bits
       m.poissons_ratio = (3.0 * kappa - 2.0 * mu) / (2.0 * (3.0 * kappa + mu));
       m.youngs_modulus = 2.0 * mu * (1.0 + m.poissons_ratio);
     }

@@ -13,9 +13,9 @@ namespace rondo::fem {
 
 enum class Plane { strain, stress };
 
-/// Quadrature of the stiffness: 2×2 points of a quadrilateral and one of a triangle, or these for
-/// the deviator and a mean for the volume (B-bar), which does not lock near ν = 1/2: the mean of
-/// the quadrilateral (Hughes 1980), of the triangles around a node (NodalDilatation).
+/// Quadrature of the stiffness. full: 2×2 points of a quadrilateral, one of a triangle. b_bar:
+/// these points for the deviator and a mean for the volume, which does not lock near ν = 1/2: the
+/// mean over a quadrilateral (Hughes 1980) or over the triangles around a node (NodalDilatation).
 enum class Integration { full, b_bar };
 
 struct Material {
@@ -24,21 +24,21 @@ struct Material {
   double density = 0.0;         ///< ρ > 0                                            [kg/m3]
   Plane plane = Plane::strain;
   Integration integration = Integration::full;
-  /// At finite strain; E and ν are then those of its small strains, without viscous branches.
+  /// The law at finite strain; E and ν then describe its small strains without viscous branches.
   std::optional<Rubber> rubber{};
 };
 
-/// Of cell `cell`. @param materials one for each of mesh.region_names, or, where mesh.region is
-/// empty, one for all.
+/// The material of cell `cell`. @param materials one for each of mesh.region_names; one for all if
+/// mesh.region is empty.
 const Material& material_of(const mesh::Mesh& mesh, std::span<const Material> materials,
                             std::size_t cell);
 
-/// Some of them are rubber at finite strain.
+/// Whether at least one material is rubber at finite strain.
 [[nodiscard]] bool has_rubber(std::span<const Material> materials) noexcept;
-/// Some rubber has viscous branches.
+/// Whether at least one rubber has viscous branches.
 [[nodiscard]] bool has_branches(std::span<const Material> materials) noexcept;
-/// Linear ones that are as stiff as these at once: rubber with the shear modulus of its law and all
-/// branches, and its bulk modulus. For critical steps.
+/// Linear materials with the same instantaneous stiffness: for rubber, the shear modulus of its law
+/// and all branches, and its bulk modulus. Used for critical time steps.
 [[nodiscard]] std::vector<Material> instantaneous(std::span<const Material> materials);
 
 /// σ = D ε with ε = (ε_xx, ε_yy, γ_xy), D = [[d11, d12, 0], [d12, d11, 0], [0, 0, d33]].
@@ -51,10 +51,10 @@ struct Hooke {
 
 Hooke hooke(const Material& material) noexcept;
 
-/// Stress in an element: D ε of the point, and the bulk modulus times the element's mean of the
-/// volumetric strain on xx, yy, zz. With full integration D is all of it. With B-bar D is that of
-/// the deviator, whose trace is none: zz = -1 (docs/theory.md, 2.3). In plane stress thickness
-/// gives way, nothing locks, and B-bar is the full integration.
+/// Stress in an element: D ε at the point, plus the bulk modulus times the element's mean
+/// volumetric strain on xx, yy, zz. With full integration D contains everything. With B-bar D is
+/// that of the deviator, which has no trace: zz = -1 (docs/theory.md, 2.3). In plane stress the
+/// thickness is free to change, nothing locks, and B-bar equals full integration.
 struct ElementLaw {
   Hooke point;
   double mean_bulk = 0.0;  ///< [Pa]

@@ -62,7 +62,7 @@ Eigen::Matrix3d matrix(const Hooke& d) {
 
 const double gauss = 1.0 / std::sqrt(3.0);
 
-/// Points of the stiffness: `jacobian` is here the area that a point stands for.
+/// Quadrature points of the stiffness; `jacobian` here is the area that belongs to a point.
 struct Points {
   std::array<Gradients, 4> at{};
   std::size_t n = 4;
@@ -81,7 +81,7 @@ Points quadrature(std::span<const Vec2> x) {
   return points;
 }
 
-/// Of a triangle.
+/// Stress of a triangle.
 Stress stress_of(const Gradients& g, std::span<const Vec2> u, const ElementLaw& law) {
   const Hooke& d = law.point;
   double exx = 0.0, eyy = 0.0, gxy = 0.0;
@@ -95,9 +95,9 @@ Stress stress_of(const Gradients& g, std::span<const Vec2> u, const ElementLaw& 
   return {xx + mean, yy + mean, d.zz * (xx + yy) + mean, d.d33 * gxy};
 }
 
-using Lanes = std::array<double, 4>;  ///< a number of each Gauss point
+using Lanes = std::array<double, 4>;  ///< one number per Gauss point
 
-/// What is the same in all quadrilaterals.
+/// Data that are the same for all quadrilaterals.
 struct GaussPoints {
   std::array<Lanes, 4> dxi, deta;  ///< gradient of the shape function of each corner   (2.2)
   std::array<Lanes, 4> at_corner;  ///< weights of the bilinear field through the points
@@ -117,8 +117,8 @@ struct GaussPoints {
 
 const GaussPoints gauss_points;
 
-/// Stress at the Gauss points of a quadrilateral, all points at once, which is what most of the
-/// time of a snapshot goes into.
+/// Stress at the Gauss points of a quadrilateral, at all points at once; this takes most of the
+/// time of a snapshot.
 std::array<Stress, 4> gauss_stress(std::span<const Vec2> x, std::span<const Vec2> u,
                                    const ElementLaw& law) {
   const GaussPoints& g = gauss_points;

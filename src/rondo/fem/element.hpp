@@ -11,7 +11,7 @@
 
 namespace rondo::fem {
 
-/// Up to four corners: 8×8 at most, no heap. Degrees of freedom 2a (x) and 2a+1 (y) of corner a.
+/// Up to four corners: 8×8 at most, no heap. Degrees of freedom of corner a: 2a (x), 2a+1 (y).
 using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 8, 8>;
 /// Stress at a corner: xx, yy, zz, xy [Pa].
 using Stress = std::array<double, 4>;
@@ -20,26 +20,26 @@ using Stress = std::array<double, 4>;
 /// convex.
 ElementMatrix element_stiffness(std::span<const Vec2> corners, const ElementLaw& law);
 
-/// Geometric stiffness (2.8) of the stress of a displacement, with the same quadrature [N/m²].
-/// `u`: one displacement a corner [m]. @param mean_stress added on xx, yy, zz [Pa]
+/// Geometric stiffness (2.8) for the stress of a displacement, with the same quadrature [N/m²].
+/// `u`: one displacement per corner [m]. @param mean_stress added to xx, yy, zz [Pa]
 ElementMatrix element_geometric_stiffness(std::span<const Vec2> corners, std::span<const Vec2> u,
                                           const ElementLaw& law, double mean_stress = 0.0);
 
-/// Lumped masses (2.5): quadrature at the corners, ρ det(∂x/∂ξ); triangles a third each [kg/m].
-/// Entries past the corners are 0.
+/// Lumped masses (2.5) [kg/m]: quadrature at the corners, ρ det(∂x/∂ξ); a triangle gives each of
+/// its corners a third. Entries beyond the corners are 0.
 std::array<double, 4> element_masses(std::span<const Vec2> corners, double density);
 
 /// Stress at the corners: Gauss-point stress extrapolated bilinearly (quadrilateral), constant
 /// (triangle); exact for a linear displacement. With B-bar the pressure of the mean volumetric
-/// strain is that of the element. `u`: one displacement a corner [m].
+/// strain is that of the element. `u`: one displacement per corner [m].
 std::array<Stress, 4> element_stress(std::span<const Vec2> corners, std::span<const Vec2> u,
                                      const ElementLaw& law);
 
-/// At the corners of a quadrilateral from that at its 2×2 points, (-, -), (+, -), (+, +), (-, +):
-/// the bilinear field through them (2.6).
+/// Stress at the corners of a quadrilateral from the stress at its 2×2 points, in the order (-, -),
+/// (+, -), (+, +), (-, +): the bilinear field through them (2.6).
 std::array<Stress, 4> extrapolated(const std::array<Stress, 4>& at_gauss) noexcept;
 
-/// Smallest det(∂x/∂ξ) over the corners [m²]: positive for an element that is not inverted
+/// Smallest det(∂x/∂ξ) over the corners [m²]: positive if the element is not inverted
 /// (quadrilateral: a quarter of a parallelogram's area; triangle: twice its area).
 double smallest_jacobian(std::span<const Vec2> corners) noexcept;
 

@@ -14,13 +14,13 @@ namespace {
 
 using Index = Eigen::Index;
 
-/// A scalar of a sector's row, scaled by the masses.
+/// A scalar entry in a sector's row, scaled by the masses.
 struct Term {
   int row, column, shift;
   double value;
 };
 
-/// Of the lower triangle, column after column.
+/// Entries of the lower triangle, column by column.
 template <int C>
 std::vector<Term> lower_terms(const SectorBlocks<C>& k, const Eigen::VectorXd& root_mass) {
   std::vector<Term> terms;

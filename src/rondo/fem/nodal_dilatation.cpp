@@ -16,7 +16,7 @@ bool same_elasticity(const Material& a, const Material& b) noexcept {
          a.plane == b.plane && a.integration == b.integration && a.rubber == b.rubber;
 }
 
-/// (materials) the first one that is the same: regions of one rubber are one.
+/// (materials) index of the first equal material: regions of the same rubber count as one.
 std::vector<int> kinds_of(std::span<const Material> materials) {
   std::vector<int> kinds;
   for (std::size_t k = 0; k < materials.size(); ++k) {
@@ -27,10 +27,10 @@ std::vector<int> kinds_of(std::span<const Material> materials) {
   return kinds;
 }
 
-/// Sums of one patch while triangles are added to it.
+/// Sums of a patch while triangles are added to it.
 struct Draft {
   double bulk = 0.0, area = 0.0;
-  std::map<int, Vec2> volume;  ///< of a node: ∂(V θ)/∂u [m]
+  std::map<int, Vec2> volume;  ///< by node: ∂(V θ)/∂u [m]
   std::vector<int> cells;
 };
 
@@ -38,7 +38,7 @@ struct Draft {
 
 NodalDilatation::NodalDilatation(const mesh::Mesh& mesh, std::span<const Material> materials) {
   const std::vector<int> kinds = kinds_of(materials);
-  std::map<std::pair<int, int>, int> place;  // of the patch of a node and a kind
+  std::map<std::pair<int, int>, int> place;  // patch of a node and a kind
   std::vector<Draft> drafts;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
     const mesh::Cell& cell = mesh.cells[e];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Volumetric strain of triangles as a mean at the nodes: B-bar for a mesh of triangles
-/// (Bonet and Burton 1998; docs/theory.md, 2.3b). A linear triangle has one strain and as good as
-/// no motion that leaves its area alone; the triangles around a node have many.
+/// @file  Volumetric strain of triangles averaged at the nodes: B-bar for a mesh of triangles
+/// (Bonet and Burton 1998; docs/theory.md, 2.3b). A linear triangle has one strain and almost no
+/// motion that keeps its area; the triangles around a node together have many.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -14,26 +14,26 @@
 
 namespace rondo::fem {
 
-/// The triangles of one material around a node share one dilatation θ, the mean of theirs by area.
-/// Materials are not mixed: each has a patch of its own at a node between them.
+/// The triangles of one material around a node share one dilatation θ, their mean weighted by area.
+/// Materials are not mixed: at a node between materials, each has its own patch.
 class NodalDilatation {
  public:
-  /// Term of θ = Σ gradient · u(node).
+  /// A term of θ = Σ gradient · u(node).
   struct Term {
     int node;
     Vec2 gradient;  ///< [1/m]
   };
-  /// Places of the patches at the corners of a triangle.
+  /// Indices of the patches at the corners of a triangle.
   using Corners = std::array<int, 3>;
 
   NodalDilatation() = default;
   /// @param materials one for each region of the mesh (material_of).
   NodalDilatation(const mesh::Mesh& mesh, std::span<const Material> materials);
 
-  /// No triangle has its volume here: quadrilaterals, full integration or plane stress alone.
+  /// No cell is averaged: all are quadrilaterals, fully integrated or in plane stress.
   [[nodiscard]] bool empty() const noexcept { return patches_.empty(); }
   [[nodiscard]] std::size_t size() const noexcept { return patches_.size(); }
-  /// The volumetric energy of this cell is that of the patches.
+  /// Whether the volumetric energy of this cell is that of the patches.
   [[nodiscard]] bool holds(std::size_t cell) const noexcept {
     return !empty() && corners_[cell][0] >= 0;
   }
@@ -41,30 +41,30 @@ class NodalDilatation {
   [[nodiscard]] const Corners& patches_of(std::size_t cell) const noexcept {
     return corners_[cell];
   }
-  /// By node, ascending.
+  /// Terms of a patch by node, ascending.
   [[nodiscard]] std::span<const Term> terms(std::size_t patch) const noexcept {
     return std::span(terms_).subspan(patches_[patch].first,
                                      patches_[patch].last - patches_[patch].first);
   }
-  /// Its triangles, by place in the mesh, ascending.
+  /// The triangles of a patch, as indices of cells in the mesh, ascending.
   [[nodiscard]] std::span<const int> cells(std::size_t patch) const noexcept {
     return std::span(cells_).subspan(patches_[patch].first_cell,
                                      patches_[patch].last_cell - patches_[patch].first_cell);
   }
-  /// V: a third of its triangles [m²].
+  /// V: a third of the area of its triangles [m²].
   [[nodiscard]] double area(std::size_t patch) const noexcept { return patches_[patch].area; }
   /// κ V: the energy of a patch is ½ κ V θ² [N].
   [[nodiscard]] double stiffness(std::size_t patch) const noexcept {
     return patches_[patch].bulk * patches_[patch].area;
   }
-  /// κ θ, which is added to the deviator on xx, yy, zz [Pa]. @param u displacement of a node [m]
+  /// κ θ, added to the deviatoric stress on xx, yy, zz [Pa]. @param u displacement of a node [m]
   template <class Displacement>
   [[nodiscard]] double mean_stress(std::size_t patch, Displacement&& u) const {
     double theta = 0.0;
     for (const Term& t : terms(patch)) theta += dot(t.gradient, u(t.node));
     return patches_[patch].bulk * theta;
   }
-  /// The same of a triangle: the mean of its corners. @pre holds(cell)
+  /// The same pressure for a triangle: the mean over its corners. @pre holds(cell)
   template <class Displacement>
   [[nodiscard]] double mean_stress_of_cell(std::size_t cell, Displacement&& u) const {
     double sum = 0.0;
@@ -75,15 +75,15 @@ class NodalDilatation {
  private:
   struct Patch {
     double bulk = 0.0;                          ///< κ [Pa]
-    double area = 0.0;                          ///< V: a third of its triangles [m²]
-    std::size_t first = 0, last = 0;            ///< in terms_
-    std::size_t first_cell = 0, last_cell = 0;  ///< in cells_
+    double area = 0.0;                          ///< V: a third of the area of its triangles [m²]
+    std::size_t first = 0, last = 0;            ///< range in terms_
+    std::size_t first_cell = 0, last_cell = 0;  ///< range in cells_
   };
 
   std::vector<Patch> patches_;
   std::vector<Term> terms_;
   std::vector<int> cells_;
-  std::vector<Corners> corners_;  ///< (e) -1: a cell with a volumetric strain of its own
+  std::vector<Corners> corners_;  ///< (e) -1: a cell with its own volumetric strain
 };
 
 }  // namespace rondo::fem

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Parameters of rubber at finite strain: an isotropic law of the isochoric invariants, a
-/// volumetric energy, viscous branches (docs/rubber.md, section 1).
+/// @file  Parameters of rubber at finite strain: an isotropic law in the isochoric invariants, a
+/// volumetric energy and viscous branches (docs/rubber.md, section 1).
 #pragma once
 #include <array>
 #include <vector>
@@ -20,24 +20,24 @@ struct OgdenTerm {
   bool operator==(const OgdenTerm&) const = default;
 };
 
-/// A Maxwell branch, neo-Hookean, beside the law.
+/// A neo-Hookean Maxwell branch parallel to the law.
 struct ViscousBranch {
-  double relative_modulus = 0.0;  ///< g: of the long-term shear modulus                [-]
+  double relative_modulus = 0.0;  ///< g: relative to the long-term shear modulus               [-]
   double time = 0.0;              ///< τ, of relaxation                                 [s]
   bool operator==(const ViscousBranch&) const = default;
 };
 
-/// Invariants I and principal stretches λ are of C̄ = J^(-2/3) C; U = κ/4 (J² - 1 - 2 ln J).
+/// Invariants I and principal stretches λ belong to C̄ = J^(-2/3) C; U = κ/4 (J² - 1 - 2 ln J).
 struct Rubber {
   RubberLaw law = RubberLaw::neo_hooke;
-  double c10 = 0.0, c01 = 0.0, c20 = 0.0, c30 = 0.0;  ///< those that the law has, others 0 [Pa]
-  std::vector<OgdenTerm> terms;                       ///< of "ogden"
+  double c10 = 0.0, c01 = 0.0, c20 = 0.0, c30 = 0.0;  ///< those of the law, others 0 [Pa]
+  std::vector<OgdenTerm> terms;                       ///< for "ogden"
   double bulk_modulus = 0.0;                          ///< κ                            [Pa]
   std::vector<ViscousBranch> branches;
-  bool one_point = false;  ///< quadrilaterals by one point and covariant hourglass stiffness
+  bool one_point = false;  ///< quadrilaterals with one point and covariant hourglass stiffness
   bool operator==(const Rubber&) const = default;
 
-  /// μ of small strain, without branches [Pa]
+  /// μ at small strain, without branches [Pa]
   [[nodiscard]] double shear_modulus() const noexcept {
     if (law != RubberLaw::ogden) return 2.0 * (c10 + c01);
     double sum = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  How the row block of one sector is put together (sector_stiffness.hpp), for any elements
-/// and any number of components a node.
+/// @file  Assembly of the row block of one sector (sector_stiffness.hpp), for any type of element
+/// and any number of components per node.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -13,14 +13,14 @@
 
 namespace rondo::fem::detail {
 
-/// Corners of an element as (number within the sector, shift from sector 0).
+/// Corners of an element, each given as (number within the sector, shift from sector 0).
 struct SectorElement {
   std::array<int, 8> node, shift;
   std::size_t n;
-  std::size_t element;  ///< of the mesh
+  std::size_t element;  ///< number in the mesh
 };
 
-/// Elements with a corner in sector 0. @param corners (element) span of its corner nodes
+/// Elements with a corner in sector 0. @param corners (element) function: span of corner nodes
 template <class Corners>
 std::vector<SectorElement> sector_elements(const mesh::Mesh& mesh, std::size_t n_elements,
                                            const Corners& corners) {
@@ -41,7 +41,7 @@ std::vector<SectorElement> sector_elements(const mesh::Mesh& mesh, std::size_t n
   return found;
 }
 
-/// Rows of a sector, layer after layer: breadth-first over elements from the clamped nodes.
+/// Rows of a sector, layer after layer, found breadth-first over elements from the clamped nodes.
 struct SectorRows {
   int nodes_per_sector = 0;
   std::vector<Complex> turn;  ///< (N)
@@ -61,7 +61,7 @@ NodeBlock<C> transposed(const NodeBlock<C>& b) noexcept {
   return t;
 }
 
-/// block · R: its columns act on vectors of which the first two components are turned by `turn`.
+/// block · R: its columns then act on vectors whose first two components are turned by `turn`.
 template <int C>
 NodeBlock<C> turned(const NodeBlock<C>& b, Complex turn) noexcept {
   NodeBlock<C> t = b;
@@ -80,7 +80,7 @@ struct BlockKey {
 template <int C>
 using SectorMap = std::map<BlockKey, NodeBlock<C>>;
 
-/// Block of two corners of an element, of whose matrix the upper triangle is taken for both.
+/// Block of two corners of an element. Only the upper triangle of its matrix is used, for both.
 template <int C, class Matrix>
 NodeBlock<C> corner_block(const Matrix& e, std::size_t i, std::size_t j) {
   NodeBlock<C> b{};
@@ -92,8 +92,8 @@ NodeBlock<C> corner_block(const Matrix& e, std::size_t i, std::size_t j) {
   return b;
 }
 
-/// Blocks of the rows of sector 0 on the columns of sectors 0 and 1. What couples it with the
-/// sector before is the transpose of what couples that one with it.
+/// Blocks of the rows of sector 0 on the columns of sectors 0 and 1. The coupling with the previous
+/// sector is the transpose of the coupling of that sector with this one.
 /// @param stiffness (element of the mesh) its matrix, components C i … of corner i
 template <int C, class Stiffness>
 SectorMap<C> forward_blocks(const std::vector<SectorElement>& elements, const SectorRows& rows,

@@ -12,7 +12,7 @@ namespace rondo::fem {
 namespace detail {
 namespace {
 
-/// (nodes_per_sector) Layer of each node: 0 where clamped; -1: none leads there.
+/// (nodes_per_sector) Layer of each node: 0 if clamped; -1: not connected to clamped nodes.
 std::vector<int> layers_of(const std::vector<SectorElement>& elements,
                            const std::vector<char>& clamped) {
   std::vector<int> layer(clamped.size(), -1);
@@ -78,7 +78,7 @@ SectorStiffness assemble_sector(const mesh::Mesh& mesh, std::span<const Material
       });
   const detail::SectorRows rows = detail::sector_rows(mesh, elements);
   const NodalDilatation dilatation(mesh, materials);
-  RONDO_DEMAND(dilatation.empty());  // reaches beyond the sector beside
+  RONDO_DEMAND(dilatation.empty());  // couples beyond adjacent sectors
   const auto stiffness = [&](std::size_t cell) {
     return cell_stiffness(mesh, materials, prestress, cell, dilatation);
   };

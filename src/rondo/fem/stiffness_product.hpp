@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The stiffness product on any mesh: 2×2 block rows.
+/// @file  The stiffness product on any mesh, by rows of 2×2 blocks.
 #pragma once
 #include <span>
 

@@ -24,7 +24,7 @@ void keep_smaller(double jacobian, std::size_t cell, Deformation& d) noexcept {
 }
 
 /// Twice the areas at the corners i, j, k, l of a quadrilateral, from its diagonals a = ik, b = jl
-/// and the edge ij: the corners at the ends of a diagonal have all of it together.
+/// and the edge ij. The areas at both ends of a diagonal add up to the whole.
 std::array<double, 4> corner_areas(Vec2 a, Vec2 b, Vec2 edge) noexcept {
   const double whole = cross(a, b), at_i = cross(edge, b), at_j = cross(edge, a);
   return {at_i, at_j, whole - at_i, whole - at_j};
@@ -33,7 +33,7 @@ std::array<double, 4> corner_areas(Vec2 a, Vec2 b, Vec2 edge) noexcept {
 }  // namespace
 
 /// The gradient at the center of a bilinear cell maps its diagonals, that of a triangle two edges:
-/// [a b] and what they change by give ∂u/∂X = [δa δb] [a b]⁻¹.
+/// [a b] and their changes give ∂u/∂X = [δa δb] [a b]⁻¹.
 Deformation deformation(const mesh::Mesh& mesh, std::span<const Vec2> u,
                         std::span<const char> rubber) noexcept {
   Deformation d;
@@ -58,7 +58,7 @@ Deformation deformation(const mesh::Mesh& mesh, std::span<const Vec2> u,
     const Vec2 edge = mesh.coordinates[j] - mesh.coordinates[i];
     const std::array<double, 4> undeformed = corner_areas(a, b, edge),
                                 now = corner_areas(a + da, b + db, edge + (u[j] - u[i]));
-    for (std::size_t c = 0; c < 4; ++c)  // divides only where the smallest so far is beaten
+    for (std::size_t c = 0; c < 4; ++c)  // divides only to replace the smallest so far
       if (now[c] < d.jacobian * undeformed[c]) keep_smaller(now[c] / undeformed[c], e, d);
   }
   return d;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  How far a body is deformed, cell by cell (docs/theory.md, 2.9): whether small strains
-/// still mean something.
+/// @file  Measures of the deformation of a body, cell by cell (docs/theory.md, 2.9): they show
+/// whether small-strain theory is still valid.
 #pragma once
 #include <cstddef>
 #include <limits>
@@ -10,29 +10,29 @@
 
 namespace rondo::fem {
 
-/// Of all cells; the first cell of equal ones.
+/// Extremes over all cells; among equal cells, the first.
 struct Deformation {
-  double strain = 0.0;  ///< largest |principal strain| of the law of the material, at the centers
+  double strain = 0.0;  ///< largest |principal strain| by the measure of each law, at the centers
   std::size_t strain_cell = 0;
-  /// Smallest det(I + ∂u/∂X) at a corner; <= 0: the cell is inverted, there at the least.
+  /// Smallest det(I + ∂u/∂X) at a corner; <= 0: the cell is inverted, at least there.
   double jacobian = std::numeric_limits<double>::infinity();
   std::size_t jacobian_cell = 0;
-  /// As `strain`, of the cells whose law is one of small strains.
+  /// Like `strain`, but only of cells with a small-strain law.
   double linear_strain = 0.0;
   std::size_t linear_cell = 0;
 };
 
 /// @param u (n) finite, in the frame of the body: without rigid rotation [m]
-/// @param rubber (cells) 1: at finite strain; empty: none is. @pre there is a cell
+/// @param rubber (cells) 1: at finite strain; empty: no cell is. @pre there is a cell
 [[nodiscard]] Deformation deformation(const mesh::Mesh& mesh, std::span<const Vec2> u,
                                       std::span<const char> rubber = {}) noexcept;
 
 /// The extremes over a run.
 struct LargestDeformation {
   Deformation found;
-  double strain_time = 0.0, jacobian_time = 0.0, linear_time = 0.0;  ///< when they were seen
+  double strain_time = 0.0, jacobian_time = 0.0, linear_time = 0.0;  ///< when they occurred
 
-  /// Of equal ones the earlier stays.
+  /// Updates the extremes; among equal ones the earlier is kept.
   void add(const Deformation& now, double time) noexcept;
 };
 

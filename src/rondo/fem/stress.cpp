@@ -16,7 +16,7 @@ StressRecovery::StressRecovery(const mesh::Mesh& mesh, std::span<const Material>
   for (const Material& material : materials_) law_.push_back(stress_law(material));
   const std::vector<double> total = nodal_areas(mesh);
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
-    static_cast<void>(material_of(mesh, materials, e));  // there is one
+    static_cast<void>(material_of(mesh, materials, e));  // checks that there is one
     const mesh::Cell& cell = mesh.cells[e];
     std::array<Vec2, 4> x;
     const auto n = static_cast<std::size_t>(mesh::n_corners(cell));

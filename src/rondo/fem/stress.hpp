@@ -13,19 +13,19 @@
 
 namespace rondo::fem {
 
-/// What the stress of a cell is by.
+/// The law that gives the stress of a cell.
 struct StressLaw {
   ElementLaw linear;
   const Rubber* rubber = nullptr;  ///< at finite strain; null: linear
 };
 
-/// @param material must outlive what is returned
+/// @param material must outlive the result
 inline StressLaw stress_law(const Material& material) noexcept {
   return {element_law(material), material.rubber ? &*material.rubber : nullptr};
 }
 
-/// Stress at the corners of a cell, as its forces have it: element_stress(), and on a triangle
-/// with its volume in `dilatation` the mean stress of each corner; of rubber Cauchy stress, without
+/// Stress at the corners of a cell, consistent with its forces: element_stress(), with the mean
+/// stress of each corner on a triangle held by `dilatation`; for rubber the Cauchy stress without
 /// viscous branches. @param u displacement of a node
 template <class Displacement>
 std::array<Stress, 4> cell_stress(const mesh::Mesh& mesh, std::size_t cell, const StressLaw& of,
@@ -54,7 +54,7 @@ class StressRecovery {
  public:
   /// @param materials one for each region of the mesh (material_of).
   StressRecovery(const mesh::Mesh& mesh, std::span<const Material> materials);
-  StressRecovery(const StressRecovery&) = delete;  // the laws know where the materials are
+  StressRecovery(const StressRecovery&) = delete;  // the laws point to the materials
   StressRecovery& operator=(const StressRecovery&) = delete;
 
   /// (n) Cauchy stress xx, yy, zz, xy at the nodes in the frame of u [Pa]; `u` is (n) [m].
@@ -66,11 +66,11 @@ class StressRecovery {
   NodalDilatation dilatation_;
   std::vector<Material> materials_;
   std::vector<StressLaw> law_;                 ///< of each material
-  std::vector<std::array<double, 4>> weight_;  ///< (e) share of a corner in its node's mean
+  std::vector<std::array<double, 4>> weight_;  ///< (e) weight of a corner in its node's mean
   std::vector<Stress> nodal_;
 };
 
-/// R σ Rᵀ: the stress along axes turned back by the angle of r = e^{iθ}.
+/// R σ Rᵀ: the stress in axes turned back by the angle of r = e^{iθ}.
 Stress turned(const Stress& stress, Complex r) noexcept;
 
 /// √(½[(σxx-σyy)² + (σyy-σzz)² + (σzz-σxx)²] + 3σxy²) [Pa].

@@ -34,7 +34,7 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-/// Exponents of kg, m, s, rad.
+/// Exponents of the units kg, m, s, rad.
 struct Unit {
   const char* name;
   const char* base;
@@ -86,7 +86,7 @@ std::string variables_text(const Values& start) {
   return text;
 }
 
-/// Indices count from 1.
+/// Indices start at 1.
 std::string unknowns(bool calculated) {
   std::string text;
   std::size_t index = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  modelDescription.xml of a wheel (FMI 2.0.4, 2.2 and 4.3), and what the FMU keeps beside
-/// it.
+/// @file  modelDescription.xml of a wheel (FMI 2.0.4,
+/// 2.2 and 4.3), and the other files in the FMU.
 #pragma once
 #include <string>
 
@@ -9,13 +9,13 @@
 namespace rondo::fmu {
 
 struct Description {
-  std::string identifier;  ///< of C: the binary is called so
+  std::string identifier;  ///< a C identifier: the name of the binary
   std::string title;       ///< of the case
   std::string guid;        ///< of case and model
   Values start;
 };
 
-/// Letters, digits, underscores, none of them a digit first.
+/// The name with only letters, digits, underscores, and no digit first.
 [[nodiscard]] std::string identifier_of(const std::string& name);
 
 [[nodiscard]] std::string model_description(const Description& d);

@@ -12,7 +12,7 @@
 namespace rondo::fmu {
 namespace {
 
-/// Writes where it has no source, reads where it has one: what is listed is the same for both.
+/// Writes if it has no source, reads if it has one, so that one list of members serves both.
 class Archive {
  public:
   Archive() = default;
@@ -79,7 +79,7 @@ class Archive {
     std::uint64_t n = list.size();
     (*this)(n);
     if (!reads_) return;
-    if (n > from_.size()) fail();  // each takes a byte at least
+    if (n > from_.size()) fail();  // each takes at least a byte
     list.resize(n);
   }
 

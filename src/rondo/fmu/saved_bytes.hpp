@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A saved wheel as bytes, of this machine's numbers, for another instance of the same FMU.
+/// @file  A saved wheel as bytes, in this machine's number format, for another instance of the FMU.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -10,13 +10,13 @@
 
 namespace rondo::fmu {
 
-/// @param owner what the bytes are of: read_bytes() asks for the same
+/// @param owner identifies the FMU; saved_of() requires the same
 [[nodiscard]] std::vector<char> bytes_of(const SavedWheel& saved, const std::string& owner);
 
-/// @throws InputError: they are of another FMU or version, or damaged
+/// @throws InputError: the bytes are of another FMU or version, or damaged
 [[nodiscard]] SavedWheel saved_of(std::span<const char> bytes, const std::string& owner);
 
-/// Of bytes, against damage: so many characters.
+/// Number of characters of the hash that detects damage.
 inline constexpr std::size_t hash_size = 32;
 [[nodiscard]] std::string hash_of(std::span<const char> bytes);
 

@@ -19,7 +19,7 @@
 namespace rondo::fmu {
 namespace {
 
-/// Reading model files and building are one thread's at a time: the library of the files is.
+/// Only one thread at a time may read model files and build, because the HDF5 library requires it.
 std::mutex& building() {
   static std::mutex mutex;
   return mutex;
@@ -34,7 +34,7 @@ dynamics::Table height_table(double height, double velocity) {
   return dynamics::Table({{0.0, height}, {1.0, height + velocity}});
 }
 
-/// The hub is the importer's: held, and nothing pushes it but what it is told.
+/// The importer prescribes the hub: it is constrained, and no other load acts on it.
 study::Case case_of(const study::Case& given, const Values& v) {
   study::Case c = given;
   c.rim = dynamics::RimBody{};
@@ -54,7 +54,7 @@ bool same_parameters(const Values& a, const Values& b) {
 
 }  // namespace
 
-/// Means are of the steps since the last communication point.
+/// Means over the steps since the last communication point.
 struct Wheel::Sums {
   Vec2 held, contact;  ///< forces [N/m]
   double torque = 0.0;
@@ -72,7 +72,7 @@ struct Wheel::Body {
   double mass = 0.0, inertia = 0.0;  ///< [kg/m], [kg·m]
   std::unique_ptr<rom::ReducedIntegrator> integrator;
   study::ContactStatistics contact;
-  Values parameters;   ///< that it was made of
+  Values parameters;   ///< parameters with which it was made
   rom::RimVector hub;  ///< at the last communication point
   Sums sums;
   dynamics::StepReport last;
@@ -119,7 +119,7 @@ void Wheel::begin(Values& values) {
   b.mass = b.setup.model.rim->mass + b.run.file.model.rim->mass;
   b.inertia = b.setup.model.rim->inertia + b.run.file.model.rim->inertia;
   body_ = std::move(body);
-  // What is said of [motion] and the step of a run is said of the inputs instead.
+  // Warnings about [motion] and the step of a run are replaced by those about the inputs.
   for (const auto* said : {&b.setup.warnings, &b.run.warnings})
     for (const std::string& text : *said)
       if (!text.starts_with("motion.") && !text.starts_with("--step-factor")) warn(text);
@@ -218,7 +218,7 @@ std::string Wheel::go_on(Values& values, double length) {
   return {};
 }
 
-/// From the hub's velocities at the last communication point linearly to those of the values.
+/// The hub's velocities change linearly from the last communication point to the given values.
 std::string Wheel::make_steps(const Values& values, long long n) {
   Body& b = *body_;
   const rom::RimVector from = b.hub, to = velocities(values);
@@ -252,7 +252,7 @@ std::string Wheel::trouble() const {
       time, above, b.c.disk.inner_radius);
 }
 
-/// (F.1), (F.2): what the hub is held by, the rigid body's inertia and weight taken out.
+/// (F.1), (F.2): forces that hold the hub, without inertia and weight of the rigid body.
 void Wheel::fill(const Values& from, double length, Values& to) const {
   const Body& b = *body_;
   const double n = static_cast<double>(b.sums.n), w = from.width;
@@ -275,7 +275,7 @@ void Wheel::warn(std::string text) {
   if (said_.insert(text).second) warnings_.push_back(std::move(text));
 }
 
-/// Once for each: the text of a value that goes on leaving its range would be another each time.
+/// Warns once for each variable, because the text would differ with every value out of range.
 void Wheel::warn_of_ranges(const Values& v) {
   const study::ModelRanges& built = body_->run.file.ranges;
   const auto check = [&](const char* what, const study::ModelRange& range, double value,
@@ -312,7 +312,7 @@ SavedWheel Wheel::save(const Values& values) const {
   return s;
 }
 
-/// Of a state before the first step the start is made anew; else only what has other parameters.
+/// If the state is from before the first step, or has other parameters, the wheel is made again.
 void Wheel::restore(const SavedWheel& s, Values& values) {
   const BorrowedBlas blas;
   Values start = s.values;

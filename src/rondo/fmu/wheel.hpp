@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A reduced wheel whose hub its caller leads, and who takes what it does to the hub
-/// (docs/fmu.md, 1): nothing of FMI, but what an FMU of it is made around.
+/// @file  A reduced wheel whose hub motion is prescribed by the caller, who receives the forces on
+/// the hub (docs/fmu.md, 1). It does not depend on FMI, but an FMU of the wheel is built around it.
 #pragma once
 #include <filesystem>
 #include <memory>
@@ -15,49 +15,49 @@
 
 namespace rondo::fmu {
 
-/// All that a wheel carries from one communication step to the next.
+/// All data that a wheel carries from one communication step to the next.
 struct SavedWheel {
   Values values;
-  double dt = 0.0;  ///< internal step taken; 0: none was made                            [s]
-  double velocity_x = 0.0, velocity_y = 0.0, angular_velocity = 0.0;  ///< at the last end
+  double dt = 0.0;  ///< internal step used; 0: no step was made                                [s]
+  double velocity_x = 0.0, velocity_y = 0.0, angular_velocity = 0.0;  ///< at the last step's end
   std::optional<rom::SavedReducedState> state;                        ///< none: no step was made
 };
 
 class Wheel {
  public:
-  /// @param step_factor of `rondo run --reduced`
+  /// @param step_factor that of `rondo run --reduced`
   Wheel(study::Case c, std::filesystem::path model, double step_factor);
   ~Wheel();
   Wheel(const Wheel&) = delete;
   Wheel& operator=(const Wheel&) = delete;
 
-  /// What an FMU of it cannot be. @throws InputError, FileError
+  /// Refuses what an FMU of the wheel does not support. @throws InputError, FileError
   void check();
-  /// Largest internal step, and mass and inertia per metre, after begin().
+  /// Largest internal step, and mass and inertia per metre of width. @pre begin()
   [[nodiscard]] double step() const noexcept;
 
-  /// Made from the parameters and the inputs in `values`, at t = 0. Fills the rest of them: forces
-  /// are those of a first step in which the hub goes on as it is, which is not kept.
+  /// Creates the wheel from the parameters and inputs in `values`, at t = 0. Fills the others:
+  /// forces are those of a first step with constant hub velocity, which is discarded.
   /// @throws InputError, FileError
   void begin(Values& values);
-  /// A communication step: to the inputs in `values` at its end. @return what is wrong with it;
-  /// empty: nothing. Forces and places are in `values` then. @pre refuse() does not
+  /// Makes a communication step to the inputs in `values` at its end. @return what is wrong with
+  /// it; empty: nothing, and `values` has the forces and positions. @pre refuse() returns empty
   [[nodiscard]] std::string go_on(Values& values, double length);
-  /// The length is none that the internal step fits into, or the wheel turns by more than
-  /// most_points in that; empty: neither. @param slack that the length may be off by        [s]
+  /// Says if the internal step does not fit into the length, or the wheel would turn by more than
+  /// most_points in it; empty: neither. @param slack allowed error of the length       [s]
   [[nodiscard]] std::string refuse(const Values& values, double length, double slack) const;
-  /// Contact points in an internal step that are refused; above 1 is warned of.
+  /// More contact points per internal step are refused; more than 1 gives a warning.
   static constexpr double most_points = 2.0;
 
-  /// What was said since the last call: each only once.
+  /// The warnings since the last call, each only once.
   [[nodiscard]] std::vector<std::string> take_warnings();
 
-  /// What was said is to be said again.
+  /// Allows warnings to be repeated.
   void forget_warnings();
 
   /// @pre begin()
   [[nodiscard]] SavedWheel save(const Values& values) const;
-  /// To the same bits. @pre it is of a wheel of the same case and model
+  /// Restores bit for bit. @pre `saved` is of a wheel of the same case and model
   /// @throws InputError: it is not
   void restore(const SavedWheel& saved, Values& values);
 

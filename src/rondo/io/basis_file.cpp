@@ -25,7 +25,7 @@ void check_format(const h5::File& file) {
   std::string format = "none";
   try {
     format = file.attribute("/", "format");
-  } catch (const FileError&) {  // said below
+  } catch (const FileError&) {  // reported below
   }
   if (format != basis_format)
     throw FileError(file.path(), fmt::format("its format is \"{}\", not \"{}\": damaged, or not of "

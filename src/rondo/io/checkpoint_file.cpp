@@ -18,7 +18,7 @@ namespace rondo::io {
 namespace fs = std::filesystem;
 namespace {
 
-/// Of what follows the first block, from where the stream stands.
+/// Hash of everything after the first block, from the current position of the stream.
 std::string hash_of_rest(std::istream& in) {
   Hash hash;
   std::vector<char> piece(1U << 20U);
@@ -41,7 +41,7 @@ void write_hash(const fs::path& file) {
   stream.seekg(hash_block_bytes);
   const std::string block = first_block(hash_of_rest(stream));
   if (stream.bad()) fail_on(file, "read");
-  stream.clear();  // of the end that was read
+  stream.clear();  // clears the end-of-file state
   stream.seekp(0);
   stream.write(block.data(), static_cast<std::streamsize>(block.size()));
   stream.close();

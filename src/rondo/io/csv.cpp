@@ -27,7 +27,7 @@ std::string header_of(const std::vector<std::string>& columns) {
   return fmt::format("{}\n", fmt::join(columns, ","));
 }
 
-/// A field as a message repeats it: short, and without characters that are none.
+/// A field as quoted in a message: shortened, and without control characters.
 std::string shown(std::string_view field) {
   constexpr std::size_t longest = 40;
   std::string text(field.substr(0, longest));
@@ -45,7 +45,7 @@ double number(std::string_view field, const std::filesystem::path& path, std::si
   return value;
 }
 
-/// take(k, value) of the field k of a row of n.
+/// Calls take(k, value) for each field k of a row of n.
 template <class Take>
 void read_row(std::string_view row, std::size_t n, std::size_t line,
               const std::filesystem::path& path, Take&& take) {
@@ -59,7 +59,7 @@ void read_row(std::string_view row, std::size_t n, std::size_t line,
   }
 }
 
-/// The first `bytes`, and their hash into `hash`. @throws FileError: there are fewer
+/// Reads the first `bytes` and adds them to `hash`. @throws FileError: the file is shorter
 std::string beginning_of(const std::filesystem::path& file, std::size_t bytes, Hash& hash) {
   demand_regular_file(file);
   std::error_code error;
@@ -76,7 +76,7 @@ std::string beginning_of(const std::filesystem::path& file, std::size_t bytes, H
 }
 
 /// Number of the first line with a number that is not finite; 0: there is none.
-/// @throws FileError: a line that is no row
+/// @throws FileError: a line is not a row
 std::size_t first_not_finite(std::string_view text, const std::filesystem::path& file) {
   const std::string_view header = text.substr(0, text.find('\n'));
   const auto n = static_cast<std::size_t>(1 + std::count(header.begin(), header.end(), ','));
@@ -92,7 +92,7 @@ std::size_t first_not_finite(std::string_view text, const std::filesystem::path&
   return found;
 }
 
-/// The hash of what is kept. @throws FileError as demand_kept()
+/// Hash of the part that is kept. @throws FileError as demand_kept()
 Hash hash_of_kept(const std::filesystem::path& file, const CsvPlace& kept) {
   Hash hash;
   const std::string text = beginning_of(file, kept.bytes, hash);
@@ -139,14 +139,14 @@ Csv::Csv(const std::filesystem::path& file, const std::vector<std::string>& colu
   if (std::fseek(file_.get(), 0, SEEK_END) != 0) fail_on(path_, "write");
 }
 
-/// Without a buffer of its own the stream passes a text on in one write. Where the disk has no room
+/// Without a buffer of its own, the stream passes a text on in one write. If the disk has no space
 /// for all of it, the file ends with the last complete row.
 void Csv::put(const std::string& text) {
   const std::size_t written = std::fwrite(text.data(), 1, text.size(), file_.get());
   const int code = errno;
   const bool whole = written == text.size();
   const std::string_view there = std::string_view(text).substr(0, written);
-  const std::size_t kept = whole ? written : there.rfind('\n') + 1;  // of no row npos + 1 = 0
+  const std::size_t kept = whole ? written : there.rfind('\n') + 1;  // no row: npos + 1 = 0
   bytes_ += kept;
   hash_.add(std::span<const char>(text).first(kept));
   if (whole) return;
@@ -179,10 +179,10 @@ void Csv::close() {
 
 namespace {
 
-/// Each name of its own: two columns of one name would be one.
+/// Names must be unique, because two columns of one name would become one.
 std::vector<std::string> names_in(const std::string& header, const std::filesystem::path& path) {
   std::vector<std::string> names;
-  std::istringstream fields(header + ",");  // the end of the last field as well
+  std::istringstream fields(header + ",");  // so that the last field also ends
   for (std::string name; std::getline(fields, name, ',');) {
     if (name.empty() || std::find(names.begin(), names.end(), name) != names.end())
       throw FileError(path.string(), fmt::format("line 1: column {} has {}", names.size() + 1,

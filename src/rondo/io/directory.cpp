@@ -23,11 +23,11 @@ namespace rondo::io {
 namespace fs = std::filesystem;
 namespace {
 
-/// Any of these: the directory holds a run.
+/// If any of these exists, the directory contains a run.
 constexpr std::array run_marks = {"run.json", "results.h5", "history.csv", "modes.json",
                                   "modes.h5"};
-/// What a run or modes write, in the order in which it is removed: where it stops on the way, the
-/// rest is still known as a run, and none goes on from a checkpoint without its files.
+/// Files of a run or of modes in the order in which they are removed: after an interruption, the
+/// rest is still recognised as a run, and no checkpoint remains without its files.
 constexpr std::array output_files = {"checkpoint.h5", "checkpoint.h5.new", "results.h5.new",
                                      "history.csv",   "contact.csv",       "convergence.csv",
                                      "fields.xdmf",   "fields.vtkhdf",     "fields.vtkhdf.new",
@@ -42,7 +42,7 @@ std::string message(int code) {
   return std::generic_category().message(code);
 }
 
-/// There is something of that name, be it a link to nowhere.
+/// Whether something has that name, even a link to nowhere.
 bool is_there(const fs::path& path) {
   std::error_code error;
   return fs::exists(fs::symlink_status(path, error));
@@ -54,7 +54,7 @@ void remove_one(const fs::path& file) {
   if (error) throw FileError(file.string(), "cannot remove: " + message(error.value()));
 }
 
-/// PODs of a run that is no more: in the run's own pod/, their files and folders that are then
+/// Removes PODs of a removed run: their files in the run's own pod/, and folders that become
 /// empty.
 void remove_pods(const fs::path& directory) {
   std::error_code error;
@@ -66,7 +66,7 @@ void remove_pods(const fs::path& directory) {
   if (fs::is_empty(directory / "pod", error)) remove_one(directory / "pod");
 }
 
-/// NAME.PROCESS.tmp, of a program that was killed before it could rename what it wrote.
+/// Removes NAME.PROCESS.tmp of a program that was killed before it could rename the file.
 void remove_unfinished(const fs::path& directory) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(directory, error)) {
@@ -79,7 +79,7 @@ void remove_unfinished(const fs::path& directory) {
   }
 }
 
-/// Contact problems kept by a run that is no more.
+/// Removes contact problems of a removed run.
 void remove_contact_problems(const fs::path& directory) {
   const fs::path folder = directory / "contact-problems";
   std::error_code error;
@@ -88,7 +88,7 @@ void remove_contact_problems(const fs::path& directory) {
   if (fs::is_empty(folder, error)) remove_one(folder);
 }
 
-/// What the directory's files say is at work there: of a run, a sweep, a shard.
+/// Files that say whether a run, a sweep or a shard is at work in the directory.
 constexpr std::array state_files = {"run.json", "sweep.json", "rows.json"};
 
 Holder holder_by(const fs::path& file) {
@@ -96,7 +96,7 @@ Holder holder_by(const fs::path& file) {
     const auto json = read_json(file);
     if (json.value("status", "") != "running") return {};
     return {json.value("process", 0), json.value("host", "")};
-  } catch (const std::exception&) {  // no such file, or another one
+  } catch (const std::exception&) {  // no such file, or not ours
     return {};
   }
 }
@@ -112,7 +112,7 @@ bool is_without_locks(int code) {
   return code == ENOSYS || code == EOPNOTSUPP || code == ENOLCK || code == EINVAL;
 }
 
-/// Whether the process has ended, though its parent has not asked for that yet.
+/// Whether the process has ended but its parent has not yet waited for it.
 bool is_zombie(int process) {
   std::ifstream file(fmt::format("/proc/{}/stat", process));
   std::string stat;
@@ -121,7 +121,7 @@ bool is_zombie(int process) {
   return name_end != std::string::npos && (stat[name_end + 2] == 'Z' || stat[name_end + 2] == 'X');
 }
 
-/// Nothing is known of another host: the process there is believed to have ended.
+/// The processes of another host are unknown; they are assumed to have ended.
 bool lives(const Holder& holder) {
   return holder.process > 0 && holder.host == host_name() &&
          (::kill(holder.process, 0) == 0 || errno == EPERM) && !is_zombie(holder.process);
@@ -152,7 +152,7 @@ DirectoryLock::DirectoryLock(const fs::path& directory)
     : descriptor_(::open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0) fail_on(directory, "open the directory");
   int code = 0;
-  for (int tries = 0; tries < 20; ++tries) {  // a second: processes of a killed one may be ending
+  for (int tries = 0; tries < 20; ++tries) {  // a second: children of a killed one may be ending
     if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
     code = errno;
     if (is_without_locks(code) && !lives(holder_of(directory))) return;
@@ -188,7 +188,7 @@ bool is_cut_off(const fs::path& directory) {
   try {
     const std::string status = read_json(directory / "run.json").value("status", "");
     return status == "running" || status == "failed";
-  } catch (const std::exception&) {  // no run.json, or another one
+  } catch (const std::exception&) {  // no run.json, or not ours
     return false;
   }
 }

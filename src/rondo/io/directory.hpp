@@ -1,34 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Results directories: which program may work in one, what it holds.
+/// @file  Results directories: which program may use one, and what it contains.
 #pragma once
 #include <filesystem>
 #include <string>
 
 namespace rondo::io {
 
-/// Of this machine.
+/// Name of this machine.
 std::string host_name();
 
-/// @throws InputError: -o names a directory that cannot be used, `what` is wrong with it, `to_do`
+/// @throws InputError: -o names a directory that cannot be used; `what` is wrong, `to_do` about it
 [[noreturn]] void refuse_directory(const std::filesystem::path& directory, const std::string& what,
                                    const std::string& to_do);
 
-/// A process that is at work in a directory.
+/// A process that uses a directory.
 struct Holder {
   int process = 0;
-  std::string host;  ///< empty: no file says that one is at work
+  std::string host;  ///< empty: no file names such a process
 };
 
-/// By run.json, sweep.json or rows.json, whose status is then "running"; whether the process is
-/// still alive is another matter.
+/// Reads run.json, sweep.json or rows.json with the status "running"; it does not check whether the
+/// process is still alive.
 Holder holder_of(const std::filesystem::path& directory);
 
-/// Held by one program at a time, until it and the processes that it forked have ended, however
-/// they end.
+/// Lets one program at a time use a directory, until it and the processes that it forked have ended
+/// in any way.
 class DirectoryLock {
  public:
-  /// On a file system without locks the process of holder_of() is looked for instead.
-  /// @throws FileError: another program holds it, still after a second; cannot be made
+  /// On a file system without locks, it looks for the process of holder_of() instead.
+  /// @throws FileError: another program still holds it after a second; cannot be created
   explicit DirectoryLock(const std::filesystem::path& directory);
   ~DirectoryLock();
   DirectoryLock(DirectoryLock&& other) noexcept;
@@ -39,25 +39,25 @@ class DirectoryLock {
 };
 
 enum class DirectoryUse {
-  begin,      ///< refused where there is another run (run.json, results.h5, history.csv) or modes
-  overwrite,  ///< whose files and PODs in its own pod/ are removed (and nothing else)
-  go_on,      ///< with what is there
+  begin,      ///< refused if there is another run (run.json, results.h5, history.csv) or modes
+  overwrite,  ///< removes its files and the PODs in its own pod/ (and nothing else)
+  go_on,      ///< continues with the existing files
 };
 
-/// Makes `directory`, with its parents, and takes it for a run. @throws InputError (holds a run; is
-/// not a directory), FileError (cannot create; another program is at work there).
+/// Creates `directory` with its parents and locks it for a run. @throws InputError (contains a run;
+/// is not a directory), FileError (cannot be created; another program uses it).
 [[nodiscard]] DirectoryLock take_results_directory(const std::filesystem::path& directory,
                                                    DirectoryUse use);
 
-/// A file that says that there is a run or modes; empty: none.
+/// A file that shows that there is a run or modes; empty: there is none.
 std::string mark_of_run(const std::filesystem::path& directory);
 
-/// By its run.json the run there has not come to an end: it was killed (with the directory taken, a
-/// run that is "running" is no more), or failed.
+/// Whether by its run.json the run did not finish: it failed or was killed. (While this program
+/// holds the directory, a run that is "running" no longer exists.)
 bool is_cut_off(const std::filesystem::path& directory);
 
-/// Removes what a run has written, but its inputs (case.toml, mesh.msh) and run.json, which are
-/// replaced when it begins anew. @pre the directory is taken. @throws FileError
+/// Removes all files of a run except its inputs (case.toml, mesh.msh) and run.json, which are
+/// replaced when a run begins. @pre the directory is locked. @throws FileError
 void clear_results_directory(const std::filesystem::path& directory);
 
 }  // namespace rondo::io

@@ -22,7 +22,7 @@ namespace rondo::io {
 namespace fs = std::filesystem;
 namespace {
 
-/// Descriptor of a file being written beside `target`.
+/// Descriptor of a temporary file beside `target`.
 class Beside {
  public:
   Beside(const fs::path& target, const std::string& suffix)
@@ -107,7 +107,7 @@ std::string unfinished_ending() {
 
 namespace {
 
-/// The process of this machine that the name of an unfinished file ends with; 0: it has none.
+/// The process of this machine in the name of an unfinished file; 0: it has none.
 pid_t process_in(const std::string& name) {
   constexpr std::string_view ending = ".tmp";
   const std::string host = fmt::format(".{}.", host_name());
@@ -166,13 +166,13 @@ bool overwrite_json(const fs::path& file, const nlohmann::ordered_json& json) no
   try {
     write_json(file, json);
     return true;
-  } catch (const std::exception&) {  // in place, then
+  } catch (const std::exception&) {  // then overwrite in place
   }
   try {
     std::error_code error;
     const auto size = fs::file_size(file, error);
     std::string text = json.dump(2) + "\n";
-    if (!error && text.size() < size) text.append(size - text.size(), ' ');  // over all of the old
+    if (!error && text.size() < size) text.append(size - text.size(), ' ');  // covers the old text
     std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
     stream.write(text.data(), static_cast<std::streamsize>(text.size()));
     stream.close();

@@ -18,7 +18,7 @@ namespace {
 struct CellCounts {
   std::size_t cells, corners, triangles;
   [[nodiscard]] bool mixed() const noexcept { return triangles > 0 && triangles < cells; }
-  /// Entries of the list that XDMF wants of a mixed mesh: type, then corners.
+  /// Length of the list that XDMF requires for a mixed mesh: type, then corners of each cell.
   [[nodiscard]] std::size_t n_mixed() const noexcept { return 5 * cells - triangles; }
 };
 
@@ -128,10 +128,10 @@ std::vector<mesh::Cell> read_cells(const h5::File& file) {
   return cells;
 }
 
-/// No node of a run is lighter or heavier; beyond, weights of a POD are out of range [kg/m].
+/// Masses of nodes outside this range are refused, because weights of a POD would overflow [kg/m].
 constexpr double lightest = 1e-100, heaviest = 1e100;
 
-/// Each pair (sector, number within it) belongs to one node. @return number of sectors
+/// Each pair (sector, number within it) must belong to one node. @return number of sectors
 int count_sectors(const h5::File& file, const mesh::Mesh& m) {
   const auto n = static_cast<long long>(m.n_nodes());
   const long long sectors = 1LL + *std::max_element(m.sector.begin(), m.sector.end());
@@ -260,7 +260,7 @@ std::string counts_differ(std::size_t a, std::size_t b, const char* what) {
   return a == b ? std::string() : fmt::format("{} {} against {}", a, what, b);
 }
 
-/// First place where two lists of the same length differ; their length where they do not.
+/// First index at which two lists of equal length differ; their length if they are equal.
 template <class T>
 std::size_t first_difference(const std::vector<T>& a, const std::vector<T>& b) {
   std::size_t i = 0;

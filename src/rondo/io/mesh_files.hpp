@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The group /mesh of an HDF5 file (docs/results.md) and its cells as XDMF wants them.
+/// @file  The group /mesh of an HDF5 file (docs/results.md) and its cells in the form XDMF needs.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -20,19 +20,19 @@ struct MeshWithMass {
   std::vector<double> mass;  ///< (n) lumped mass per unit thickness [kg/m]; solid: mass [kg]
 };
 
-/// @throws FileError: no mesh, or one that cannot be right
+/// @throws FileError: no mesh, or an invalid one
 MeshWithMass read_mesh(const h5::File& file);
 
-/// Empty if both are the same, bit by bit, but for what is not stored; else what differs first.
+/// Empty if both are bitwise the same in all that is stored; else the first difference.
 std::string mesh_difference(const mesh::Mesh& a, const mesh::Mesh& b);
 
-/// Of all that the mesh holds but names, to tell whether two are the same bit by bit.
+/// Hash of everything in the mesh except names; equal if two meshes are bitwise the same.
 std::string mesh_hash(const mesh::Mesh& mesh);
 
-/// Bytes of the datasets of write_mesh().
+/// Size in bytes of the datasets of write_mesh().
 std::size_t mesh_bytes(const mesh::Mesh& mesh) noexcept;
 
-/// Cells of a mesh written by write_mesh().
+/// The cells of a mesh that write_mesh() wrote.
 XdmfTopology topology_of(const mesh::Mesh& mesh);
 
 }  // namespace rondo::io

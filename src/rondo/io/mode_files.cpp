@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 namespace {
 
 using h5::Type;
-using Vector = std::array<float, 3>;  ///< of ParaView
+using Vector = std::array<float, 3>;  ///< for ParaView
 
-/// The same part of all modes: as computed, and as ParaView wants it.
+/// One part, real or imaginary, of all modes: as computed, and in the form for ParaView.
 struct Part {
   h5::Dataset exact, shown;
 };
@@ -78,7 +78,7 @@ void write_mode_shapes(const fs::path& directory, const mesh::Mesh& mesh,
   file.set_attribute("/", "format", "rondo modes 1");
   write_mesh(file, mesh, mass);
   Xdmf xdmf(directory / "modes.xdmf", series_of(mesh, n));
-  if (n > 0) {  // readers trip over datasets without numbers
+  if (n > 0) {  // readers fail on datasets without numbers
     write_figures(file, spins, n);
     Part real = create(file, "real", {n, mesh.n_nodes()});
     Part imaginary = create(file, "imaginary", {n, mesh.n_nodes()});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Shapes of modes: modes.h5 and modes.xdmf (docs/modes.md), one grid for each mode.
+/// @file  Mode shapes: modes.h5 and modes.xdmf (docs/modes.md), with one grid per mode.
 #pragma once
 #include <filesystem>
 #include <span>
@@ -16,7 +16,7 @@ struct SpinModes {
   const std::vector<modal::Mode>* modes = nullptr;
 };
 
-/// Both files; the modes of all spins one after another, number 1 first.
+/// Writes both files, with the modes of all spins one after another, number 1 first.
 /// @param mass (n) [kg/m]. @throws FileError
 void write_mode_shapes(const std::filesystem::path& directory, const mesh::Mesh& mesh,
                        std::span<const double> mass, std::span<const SpinModes> spins);

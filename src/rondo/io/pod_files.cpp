@@ -61,7 +61,7 @@ void check(const PodContent& c, const Counts& n) {
                c.angle.size(), c.run.size(), c.error.size(), n.times);
 }
 
-/// Units that follow from the weight W: Φ has that of W^(-1/2), Σ that of the quantity times
+/// Units that follow from the weight W: Φ has the unit of W^(-1/2), Σ that of the quantity times
 /// W^(1/2).
 struct Units {
   std::string weight, modes, sigma;
@@ -78,7 +78,7 @@ Units units_of(const PodContent& c) {
   return {"1", "1", c.unit};
 }
 
-/// Datasets without numbers are left out: readers trip over them.
+/// Datasets without numbers are left out because readers fail on them.
 template <class Values>
 void write(h5::File& file, const std::string& name, const h5::Shape& shape, const Values& values,
            const h5::Label& label) {
@@ -116,7 +116,7 @@ void write_snapshots(h5::File& file, const PodContent& c, const Counts& n) {
     file.set_attribute("/snapshots/run", fmt::format("run_{}", i), c.runs[i]);
 }
 
-/// Row by row: V lies in memory column after column.
+/// Written row by row because V is stored column by column.
 void write_temporal(h5::File& file, const PodContent& c, const Counts& n) {
   const auto put = [&](const char* name, std::size_t columns, bool times_sigma,
                        const h5::Label& label) {
@@ -192,7 +192,7 @@ void PodWriter::write_all(const PodContent& c) {
   file_.flush();
 }
 
-/// Φ lies in memory as it does in the file, mode after mode.
+/// Φ is stored in memory as in the file, mode after mode.
 void PodWriter::write_modes(const PodContent& c) {
   Xdmf modes(folder_ / "modes.xdmf", series(c, n_.modes));
   if (n_.modes == 0) return modes.close();
@@ -252,7 +252,7 @@ XdmfSeries PodWriter::series(const PodContent& c, std::size_t times) const {
   return s;
 }
 
-/// Normal and tangential are no vector of the fixed axes: two scalars.
+/// Normal and tangential components are shown as two scalars: they are not a vector in fixed axes.
 void PodWriter::add_fields(XdmfSeries& s, const std::string& name,
                            const std::string& dataset) const {
   if (boundary_.empty()) {
@@ -294,7 +294,7 @@ void PodWriter::commit() {
 }
 
 void PodWriter::add(double time, FieldView original, FieldView reconstructed) {
-  RONDO_DEMAND(added_ == 0 || time > last_, time, last_);  // as ParaView wants them
+  RONDO_DEMAND(added_ == 0 || time > last_, time, last_);  // required by ParaView
   RONDO_DEMAND(added_ < n_.reconstructed && original.size() == n_.points &&
                    reconstructed.size() == n_.points,
                added_, original.size(), reconstructed.size(), n_.points);

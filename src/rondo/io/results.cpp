@@ -15,7 +15,7 @@
 namespace rondo::io {
 namespace {
 
-/// Fields of all nodes, at some snapshot.
+/// Whether there are fields of all nodes at some snapshot.
 template <class Counts>
 bool has_fields(const Counts& c) noexcept {
   return c.modes == 0 && c.times > 0;
@@ -38,7 +38,7 @@ XdmfSeries series_of(const mesh::Mesh& mesh, const Counts& c) {
   s.fields.push_back({"von_mises", "Scalar", "/fields/von_mises"});
   const std::string stress = "/fields/cauchy_stress";
   s.fields.push_back({"cauchy_stress", "Tensor6", stress, 6, 0, 6});
-  // Alone as well: ParaView's XDMF 3 readers take the six numbers for xx, yy, zz, xy, yz, xz.
+  // Shown alone too, as ParaView's XDMF 3 readers take the six numbers for xx, yy, zz, xy, yz, xz.
   s.fields.push_back({"stress_xx", "Scalar", stress, 6, 0, 1});
   s.fields.push_back({"stress_xy", "Scalar", stress, 6, 1, 1});
   s.fields.push_back({"stress_yy", "Scalar", stress, 6, 3, 1});
@@ -56,14 +56,14 @@ std::array<float, 6> turned_tensor(const fem::Stress& stress, Complex r) noexcep
           static_cast<float>(s[2])};
 }
 
-/// Likewise of all six components.
+/// The same for all six components.
 std::array<float, 6> turned_tensor(const fem::SolidStress& stress, Complex r) noexcept {
   const fem::SolidStress s = fem::turned(stress, r);
   return {static_cast<float>(s[0]), static_cast<float>(s[3]), static_cast<float>(s[5]),
           static_cast<float>(s[1]), static_cast<float>(s[4]), static_cast<float>(s[2])};
 }
 
-/// A plane vector has no component along z.
+/// A plane vector has the component 0 along z.
 Vec3 in_space(std::span<const double> a) noexcept {
   return {a[0], a[1], a.size() > 2 ? a[2] : 0.0};
 }
@@ -73,7 +73,7 @@ std::array<float, 3> rounded(Vec3 a) noexcept {
 }
 
 constexpr const char* results_name = "results.h5";
-constexpr const char* new_name = "results.h5.new";  // until it is whole
+constexpr const char* new_name = "results.h5.new";  // until it is complete
 
 }  // namespace
 
@@ -85,7 +85,7 @@ Results::Counts Results::counts_of(const ResultsLayout& layout) noexcept {
           contact,     layout.stress,     layout.modes.count, m.is_solid()};
 }
 
-/// Of results.h5: what describes the datasets, and an entry for each row.
+/// Size of the index of results.h5: the descriptions of the datasets, and an entry for each row.
 std::size_t Results::index_bytes(const Counts& c) noexcept {
   constexpr std::size_t description = 4096;
   const std::size_t datasets = c.solid ? 25 : 24;
@@ -143,13 +143,13 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
     for (h5::Dataset* dataset : all_rows_) dataset->copy_rows(before, *kept);
     written_ = *kept;
   }
-  // From here on the file is there, and at any moment whole.
+  // From here on the file exists and is complete at any moment.
   file_.flush();
   replace_file(unfinished_.path, directory_ / results_name);
   if (c_.modes == 0) begin_shown(*layout.mesh);
 }
 
-/// What a shown field holds is what its dataset says, in the order in which fields.vtkhdf shows it.
+/// Labels shown fields with the texts of their datasets, in the order shown in fields.vtkhdf.
 XdmfSeries Results::labelled(XdmfSeries series) const {
   const auto label_of = [&](const std::string& dataset) {
     const h5::Label label = file_.dataset(dataset).label();
@@ -168,7 +168,7 @@ XdmfSeries Results::labelled(XdmfSeries series) const {
   return series;
 }
 
-/// With the grids of the snapshots that are there.
+/// Starts the files for ParaView with the grids of the existing snapshots.
 void Results::begin_shown(const mesh::Mesh& mesh) {
   std::vector<double> times = d_.time ? d_.time.read<double>() : std::vector<double>();
   times.resize(written_);
@@ -182,8 +182,8 @@ void Results::resize(std::size_t rows) {
   for (h5::Dataset* dataset : all_rows_) dataset->resize(rows);
 }
 
-/// Room for all snapshots, in parts: what a run stopped early gives back then lies at the end of
-/// the file, which becomes shorter.
+/// Reserves space for all snapshots in portions: the space that a run stopped early gives back is
+/// then at the end of the file, which becomes shorter.
 void Results::reserve() {
   constexpr std::size_t parts = 64;
   const std::size_t part = (c_.times + parts - 1) / parts;
@@ -273,7 +273,7 @@ void Results::write_series(std::span<const double> values) {
   }
 }
 
-/// The time comes last: where it is a number, the snapshot is complete.
+/// The time is written last: if it is a number, the snapshot is complete.
 void Results::write(const Snapshot& s, const SnapshotFields& fields) {
   check(s, fields);
   if (c_.modes == 0) write_fields(s);
@@ -315,7 +315,7 @@ void Results::close() {
 Results::~Results() {
   try {
     close();
-  } catch (const std::exception&) {  // reported where close() is called
+  } catch (const std::exception&) {  // reported if close() is called
   }
 }
 

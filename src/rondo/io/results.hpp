@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  results.h5, fields.xdmf and fields.vtkhdf of a run, readable at any moment of it
 /// (docs/results.md).
-///
-/// Every dataset is created at full size with its storage reserved, then the file's metadata is
-/// flushed once and never changes while the run goes on: a run killed at any moment leaves a file
-/// that opens. /frame/time is NaN where a snapshot was not reached. close() cuts the datasets to
-/// the snapshots written. fields.xdmf and fields.vtkhdf list only snapshots written.
+/// Every dataset is created at full size with its storage reserved. The file's
+/// metadata is then flushed once and never changes during the run, so that a
+/// run killed at any moment leaves a file that can be opened. /frame/time is
+/// NaN for snapshots that were not reached. close() cuts the datasets to the
+/// snapshots written. fields.xdmf and fields.vtkhdf list only these.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -29,13 +29,13 @@
 
 namespace rondo::io {
 
-/// A dataset with one value for each snapshot, beside those that every analysis has.
+/// A dataset with one value per snapshot, in addition to those of every analysis.
 struct Series {
   std::string path, unit, meaning;
   std::size_t components = 1;
 };
 
-/// What an analysis calls its times and rates; the defaults are those of motion in time.
+/// Names that an analysis gives its times and rates; the defaults are those of motion in time.
 struct ResultsWords {
   std::string analysis = "dynamic";
   std::string time_unit = "s";
@@ -44,13 +44,13 @@ struct ResultsWords {
   std::string velocity_time = "of velocity: half a step before /frame/time";
   std::string velocity_unit = "m/s";
   std::string velocity;        ///< empty: du/dt in the frames of the nodes
-  std::string field_velocity;  ///< likewise along the fixed axes
+  std::string field_velocity;  ///< the same along the fixed axes
   std::string force = "impulse of the step over its length";
 };
 
-/// What lifts the reduced coordinates among the series, where snapshots are kept by these.
+/// The modes from which fields are computed, if the snapshots hold reduced coordinates (a series).
 struct ReducedModes {
-  std::span<const double> basis;  ///< (count, n, 2) mode after mode, node after node x, y
+  std::span<const double> basis;  ///< (count, n, 2) mode after mode, x, y node after node
   std::size_t count = 0;          ///< 0: snapshots are fields of all nodes
   std::string frame;              ///< "rectified" or "turning"
 };
@@ -59,22 +59,22 @@ struct ResultsLayout {
   const mesh::Mesh* mesh = nullptr;
   std::span<const double> mass;  ///< (n) lumped mass per unit thickness [kg/m]; solid: mass [kg]
   std::size_t n_snapshots = 0;   ///< planned
-  bool contact = false;          ///< something may be touched: /contact is written
-  bool stress = false;           ///< stress goes into the fields
-  /// (n) number of the free body that a node belongs to, which moves in the fixed frame; -1: it
-  /// moves in the turning frame. Empty: no free body.
+  bool contact = false;          ///< whether something may be touched: /contact is written
+  bool stress = false;           ///< whether the fields include stress
+  /// (n) index of the free body of a node, which moves in the fixed frame; -1: the node moves in
+  /// the rotating frame. Empty: no free body.
   std::span<const int> free_body = {};
-  std::size_t components = 2;  ///< of the vectors of a snapshot; 3 where the mesh is solid
-  double camber = 0.0;         ///< of a solid mesh, by which the ground leans      [rad]
+  std::size_t components = 2;  ///< of a snapshot's vectors; 3 for a solid mesh
+  double camber = 0.0;         ///< for a solid mesh, inclination of the ground    [rad]
   ResultsWords words = {};
   std::vector<Series> series = {};
   ReducedModes modes =
-      {};  ///< with them: neither /snapshots, /fields, stress, fields.xdmf nor fields.vtkhdf
-  std::span<const double> mass_dynamic{};  ///< (n) with which it moves; empty: with that [kg/m]
+      {};  ///< if given: no /snapshots, /fields, stress, fields.xdmf, fields.vtkhdf
+  std::span<const double> mass_dynamic{};  ///< (n) mass used in the motion; empty: `mass` [kg/m]
 };
 
-/// What results.h5 held at some moment: so many snapshots, and for each dataset with a row for each
-/// of them, by its name, the hash of these rows.
+/// Contents of results.h5 at some moment: the number of snapshots, and, by name, the hash of the
+/// rows of each dataset that has one row per snapshot.
 struct KeptSnapshots {
   std::size_t count = 0;
   std::map<std::string, std::string> hashes;
@@ -82,17 +82,17 @@ struct KeptSnapshots {
   friend bool operator==(const KeptSnapshots&, const KeptSnapshots&) = default;
 };
 
-/// @throws FileError: cannot be read, holds fewer, or differs in a bit of these; the message names
-/// dataset and snapshot where one holds what is no finite number
+/// @throws FileError: cannot be read, has fewer snapshots, or differs from `kept` in a bit; the
+/// message names dataset and snapshot if one contains a number that is not finite
 void demand_kept(const std::filesystem::path& results, const KeptSnapshots& kept);
 
 class Results {
  public:
-  /// Creates directory/results.h5 and, of fields, fields.xdmf and fields.vtkhdf beside it. @param
-  /// kept goes on with files that are there, after so many of their snapshots: these are copied
-  /// into a new results.h5, which takes the old one's place once it is whole. @pre the same mesh,
-  /// at most as many as planned.
-  /// @throws FileError: damaged, or fewer snapshots there
+  /// Creates directory/results.h5 and, for fields, fields.xdmf and fields.vtkhdf beside it.
+  /// @param kept continues existing files after that many of their snapshots: these are
+  /// copied into a new results.h5, which replaces the old one when it is complete. @pre the
+  /// same mesh, at most as many snapshots as planned. @throws FileError: damaged, or fewer
+  /// snapshots in the file
   Results(const std::filesystem::path& directory, const ResultsLayout& layout,
           std::optional<std::size_t> kept = {});
   ~Results();
@@ -102,15 +102,15 @@ class Results {
   /// Writes the next snapshot and flushes it. @pre fewer than n_snapshots written. @throws
   /// FileError
   void write(const Snapshot& snapshot, const SnapshotFields& fields);
-  /// Cuts to what was written and closes. @throws FileError
+  /// Cuts the datasets to the snapshots written and closes. @throws FileError
   void close();
   [[nodiscard]] std::size_t written() const noexcept { return written_; }
-  /// What it holds by now, also once it is closed.
+  /// The contents so far; also valid once it is closed.
   [[nodiscard]] KeptSnapshots place() const;
-  /// All that was written is on the disk, whatever happens to the machine. @throws FileError
+  /// Makes sure that everything written is on the disk even if the machine fails. @throws FileError
   void sync() const;
 
-  /// Bytes that results.h5 will take, for `rondo check`.
+  /// Final size of results.h5 in bytes, for `rondo check`.
   [[nodiscard]] static std::size_t bytes(const ResultsLayout& layout) noexcept;
 
  private:
@@ -139,7 +139,7 @@ class Results {
   void write_stress(const Snapshot& s, const SnapshotFields& fields);
   void write_contact(const SnapshotFields& fields);
   void write_series(std::span<const double> values);
-  /// Of displacements and velocities, for descriptions.
+  /// The frame of displacements and velocities, for descriptions.
   [[nodiscard]] std::string frame() const {
     return free_body_.empty() ? "co-rotating frame"
                               : "co-rotating frame, of free bodies fixed frame";
@@ -157,15 +157,15 @@ class Results {
 
   Counts c_;
   std::filesystem::path directory_;
-  UnfinishedFile unfinished_;  ///< results.h5 until it is whole
+  UnfinishedFile unfinished_;  ///< results.h5 until it is complete
   std::vector<Vec2> coordinates_;
-  std::vector<double> axial_;  ///< (n) of a solid mesh
+  std::vector<double> axial_;  ///< (n) for a solid mesh
   GroundFrame ground_;
   std::vector<int> boundary_;
   std::vector<double> tributary_;
   std::vector<int> free_body_;
   std::size_t written_ = 0;
-  KeptSnapshots at_end_;  ///< once it is closed
+  KeptSnapshots at_end_;  ///< set once it is closed
   std::vector<std::array<float, 3>> vectors_, forces_;
   std::vector<std::array<float, 6>> tensors_;
   std::vector<float> scalars_;
@@ -178,10 +178,10 @@ class Results {
   } d_;
   ResultsWords words_;
   std::vector<Series> series_;
-  std::vector<h5::Dataset> series_rows_;  ///< one for each of them
-  std::vector<h5::Dataset*> all_rows_;    ///< those that there are, of d_ and series_rows_
-  std::unique_ptr<Xdmf> xdmf_;            ///< none: no fields
-  std::unique_ptr<Vtkhdf> vtkhdf_;        ///< likewise
+  std::vector<h5::Dataset> series_rows_;  ///< one for each series
+  std::vector<h5::Dataset*> all_rows_;    ///< all datasets with rows, of d_ and series_rows_
+  std::unique_ptr<Xdmf> xdmf_;            ///< null: no fields
+  std::unique_ptr<Vtkhdf> vtkhdf_;        ///< null: no fields
 };
 
 }  // namespace rondo::io

@@ -115,7 +115,7 @@ void Results::create_fields() {
             "xx, xy, xz, yy, yz, zz"});
 }
 
-/// Once: the directory stands without the model's file.
+/// Written once, so that the directory is usable without the model's file.
 void Results::write_modes(const ReducedModes& modes) {
   file_.write("/reduced/modes", {modes.count, c_.nodes, 2}, modes.basis,
               {"kg^(-1/2)",

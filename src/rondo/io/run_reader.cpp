@@ -26,7 +26,7 @@ constexpr const char* results_format = "rondo results 1";
   throw request_error("RUN", directory.string(), what, wanted);
 }
 
-/// results.h5 of a directory that holds one.
+/// The path of results.h5 in a directory that contains one.
 fs::path results_of(const fs::path& directory) {
   std::error_code error;
   if (!fs::exists(directory, error)) refuse(directory, "there is no such directory");
@@ -40,7 +40,7 @@ h5::File open_results(const fs::path& path) {
   std::string format = "none";
   try {
     format = file.attribute("/", "format");
-  } catch (const FileError&) {  // said below
+  } catch (const FileError&) {  // reported below
   }
   if (format != results_format)
     throw FileError(path.string(),
@@ -81,13 +81,13 @@ void RunReader::read_analysis() {
   std::string found;
   try {
     found = file_.attribute("/", "analysis");
-  } catch (const FileError&) {  // of an earlier version
+  } catch (const FileError&) {  // file of an earlier version
     return;
   }
   analysis_ = found;
 }
 
-/// A run without snapshots has no /frame.
+/// A run without snapshots has no group /frame.
 void RunReader::read_times() {
   if (!file_.contains("/frame/time") && !file_.contains("/snapshots")) return;
   times_.time = file_.dataset("/frame/time", {h5::any}).read<double>();

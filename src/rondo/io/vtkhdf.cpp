@@ -43,7 +43,7 @@ std::string in_steps(const std::string& name) {
   return "/VTKHDF/Steps/" + name;
 }
 
-/// VTK's order of a symmetric tensor is xx, yy, zz, xy, yz, xz; that of the datasets xx, xy, xz,
+/// VTK's order of a symmetric tensor is xx, yy, zz, xy, yz, xz; that of the datasets is xx, xy, xz,
 /// yy, yz, zz.
 std::vector<std::size_t> columns_of(const XdmfField& f) {
   if (f.type == "Tensor6") return {0, 3, 5, 1, 4, 2};
@@ -87,7 +87,7 @@ Vtkhdf::Vtkhdf(std::filesystem::path file, XdmfSeries series, std::vector<double
   if (error) throw FileError(path_.string(), "cannot remove: " + error.message());
 }
 
-/// For n_times rows, with the steps so far.
+/// Builds the file for n_times rows with the steps so far.
 void Vtkhdf::build() {
   h5::LinkedFile& file = file_.emplace();
   const auto count = [&](const char* name, std::size_t n) {
@@ -114,15 +114,15 @@ void Vtkhdf::build() {
   for (std::size_t k = 0; k < times_.size(); ++k) put_step(k);
 }
 
-/// Readers of VTKHDF pass over attributes that they do not know.
+/// Readers of VTKHDF ignore attributes that they do not know.
 void Vtkhdf::label(const std::string& name, const ShownLabel& of) {
   if (of.units.empty()) return;
   file_->set_attribute(name, "units", of.units);
   file_->set_attribute(name, "description", of.description);
 }
 
-/// Where in the arrays each step has its points, cells and fields: cells stand at their beginning,
-/// points and fields follow one another.
+/// The offsets of points, cells and fields of each step in the arrays: cells are always at the
+/// beginning, points and fields of the steps follow one another.
 void Vtkhdf::build_steps() {
   const std::size_t t = series_.n_times;
   file_->create_rows(in_steps("Values"), h5::Type::float64, {t}, 0);

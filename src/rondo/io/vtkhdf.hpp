@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  VTKHDF: the small file beside an HDF5 file that shows its fields to VTK and ParaView by
+/// @file  VTKHDF: a small file beside an HDF5 file that presents its fields to VTK and ParaView in
 /// VTK's own layout (docs.vtk.org, "VTKHDF format specification": UnstructuredGrid, version 2.0,
-/// temporal). Nothing is stored twice: cells are links, positions and fields virtual datasets that
-/// show (t, n, 3) as (t * n, 3) (docs/decisions/040).
+/// temporal). No data is stored twice: cells are links, positions and fields are virtual datasets
+/// that show (t, n, 3) as (t * n, 3) (docs/decisions/040).
 #pragma once
 #include <chrono>
 #include <cstddef>
@@ -17,30 +17,30 @@
 
 namespace rondo::io {
 
-/// The cells as VTK wants them, into the group /mesh/vtk of the HDF5 file. @throws FileError
+/// Writes the cells in VTK's layout into the group /mesh/vtk of the file. @throws FileError
 void write_vtk_cells(h5::File& file, const mesh::Mesh& mesh);
 
-/// Bytes of what write_vtk_cells() writes.
+/// Size in bytes of the datasets of write_vtk_cells().
 std::size_t vtk_cells_bytes(const mesh::Mesh& mesh) noexcept;
 
-/// A step for each row of the datasets that is complete; no file where there is none. At any moment
-/// the file is whole: a new one takes its place now and then. What closes it, or was there before,
-/// leaves no trace in its bytes.
+/// Has a step for each complete row of the datasets; without rows there is no file. The file is
+/// complete at any moment, because it is replaced by a new one from time to time. Its bytes depend
+/// neither on how it was closed nor on an earlier file.
 class Vtkhdf {
  public:
-  /// Between two files that take each other's place: a run of many snapshots makes few of them.
+  /// Time between two replacements, so that a run of many snapshots makes few files.
   static constexpr std::chrono::milliseconds interval{100};
 
-  /// Creates, replaces or, without rows, removes the file. @param times of the rows that are there
+  /// Creates or replaces the file; without rows, removes it. @param times of the rows that exist
   /// already. @pre the series has positions. @throws FileError
   Vtkhdf(std::filesystem::path file, XdmfSeries series, std::vector<double> times = {});
 
-  /// Adds the step of the next row; it is in the file with the next one that is written, the first
-  /// at once. @throws FileError
+  /// Adds the step of the next row. The first step is written at once, another together with the
+  /// next one that is written. @throws FileError
   void add(double time);
-  /// The datasets were cut to the steps added: written anew with that length. @throws FileError
+  /// Writes the file for datasets that were cut to the steps added. @throws FileError
   void close();
-  /// All steps are in the file, and it is on the disk whatever happens to the machine.
+  /// Writes all steps and makes sure that they are on the disk even if the machine fails.
   /// @throws FileError
   void sync();
 
@@ -55,7 +55,7 @@ class Vtkhdf {
   XdmfSeries series_;
   std::vector<double> times_;  ///< of the steps                                       [s]
   std::optional<h5::LinkedFile> file_;
-  std::size_t put_ = 0;  ///< steps in the file
+  std::size_t put_ = 0;  ///< number of steps in the file
   std::chrono::steady_clock::time_point put_at_{};
 };
 

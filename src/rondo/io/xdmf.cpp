@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/io/xdmf.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
+#include <exception>
 #include <iterator>
-#include <system_error>
 #include <utility>
 
-#include "rondo/core/error.hpp"
 #include "rondo/io/files.hpp"
 
 namespace rondo::io {
@@ -28,24 +24,24 @@ constexpr const char* tail = "</Grid>\n</Domain>\n</Xdmf>\n";
 Xdmf::Xdmf(std::filesystem::path file, XdmfSeries series, std::vector<double> times)
     : path_(std::move(file)), series_(std::move(series)), times_(std::move(times)) {
   times_.reserve(series_.n_times);
-  end_ = write_whole();
-  descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
-  if (descriptor_ < 0) fail_on(path_, "open");
-}
-
-/// The file anew, at once. Returns where the next grid goes.
-std::size_t Xdmf::write_whole() {
-  text_ = head;
-  for (std::size_t row = 0; row < times_.size(); ++row) append_grid(row);
-  const std::size_t end = text_.size();
-  if (times_.empty()) append_reference_grid();
-  text_ += tail;
-  write_file(path_, text_);
-  return end;
+  write_file(path_, whole());
 }
 
 Xdmf::~Xdmf() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (closed_ || listed_ == times_.size()) return;
+  try {
+    write_beside(path_, whole());
+  } catch (const std::exception&) {  // what failed before this is told already
+  }
+}
+
+/// The text with all grids.
+const std::string& Xdmf::whole() {
+  text_ = head;
+  for (std::size_t row = 0; row < times_.size(); ++row) append_grid(row);
+  if (times_.empty()) append_reference_grid();
+  listed_ = times_.size();
+  return text_ += tail;
 }
 
 void Xdmf::append_topology() {
@@ -65,7 +61,7 @@ void Xdmf::append_reference_geometry() {
                  series_.data_file, series_.reference);
 }
 
-/// ParaView crashes on a collection of nothing. The first grid, which is longer, replaces this one.
+/// ParaView crashes on a collection without grids.
 void Xdmf::append_reference_grid() {
   text_ += "<Grid Name=\"reference\" GridType=\"Uniform\"><Time Value=\"0\"/>\n";
   append_topology();
@@ -73,11 +69,11 @@ void Xdmf::append_reference_grid() {
   text_ += "</Grid>\n";
 }
 
-/// Row `row` of a dataset (t, n) or (t, n, width), said twice, as ParaView's two families of
-/// readers cannot read each other's way. XDMF 3 takes the first text:
-/// dataset|start:stride:count:of. XDMF 2 takes the two items within, for the sake of Type; and it
-/// takes that first text for the name of the array: different at each time, it is never mistaken
-/// for what was read before.
+/// Row `row` of a dataset (t, n) or (t, n, width), described twice, because ParaView's two families
+/// of readers cannot read each other's form. XDMF 3 takes the first text:
+/// dataset|start:stride:count:of. XDMF 2 takes the two items inside, because of Type, and uses the
+/// first text as the name of the array; since it differs at each time, it is never mistaken for
+/// data read before.
 void Xdmf::append_array(std::size_t row, const XdmfField& f) {
   const bool deep = f.width > 1;
   const auto in_dataset = [&](const std::string& time, auto node, std::size_t number) {
@@ -119,33 +115,15 @@ void Xdmf::append_grid(std::size_t row) {
   text_ += "</Grid>\n";
 }
 
-/// Writes text_, a grid, and the closing tags over what follows the grids.
-void Xdmf::put() {
-  const std::size_t end = end_ + text_.size();
-  text_ += tail;
-  for (std::size_t done = 0; done < text_.size();) {
-    const ssize_t n = ::pwrite(descriptor_, text_.data() + done, text_.size() - done,
-                               static_cast<off_t>(end_ + done));
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail_on(path_, "write");
-    done += static_cast<std::size_t>(n);
-  }
-  end_ = end;
-}
-
 void Xdmf::add(double time) {
   times_.push_back(time);
-  text_.clear();
-  append_grid(times_.size() - 1);
-  put();
+  if (times_.size() >= listed_ + 1 + listed_ / 16) write_beside(path_, whole());
 }
 
 void Xdmf::close() {
-  if (descriptor_ < 0) return;
-  if (::close(std::exchange(descriptor_, -1)) != 0) fail_on(path_, "close");
-  if (times_.size() == series_.n_times) return;
+  if (std::exchange(closed_, true)) return;
   series_.n_times = times_.size();
-  write_whole();
+  write_file(path_, whole());
 }
 
 }  // namespace rondo::io

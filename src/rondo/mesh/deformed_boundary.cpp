@@ -11,7 +11,7 @@
 namespace rondo::mesh {
 namespace {
 
-constexpr double round_off = 1e-12;  ///< of a sum of some shares
+constexpr double round_off = 1e-12;  ///< relative, for a sum of a few shares
 
 }  // namespace
 
@@ -51,8 +51,8 @@ DeformedBoundary::Shares DeformedBoundary::collect(std::span<const Face> nodes,
   return shares;
 }
 
-/// Looks at the curves and surfaces of the mesh, for contact_edges leaves out the edges beside a
-/// clamped node.
+/// Examines the curves and surfaces of the mesh. For contact_edges, edges at a clamped node are
+/// left out.
 DeformedBoundary::Shares DeformedBoundary::find() const {
   for (const Surface& surface : mesh_.surfaces)
     if (Shares shares = shares_of(surface.faces); makes_tributaries(shares)) return shares;
@@ -73,7 +73,7 @@ bool DeformedBoundary::makes_tributaries(const Shares& shares) const {
   return true;
 }
 
-/// Half of the length of an edge, or the share of a face.
+/// Half of the present length of an edge, or the share of a face.
 double DeformedBoundary::now(const Share& share, FieldView u) const noexcept {
   const auto in_plane = [&](std::size_t i) {
     const std::size_t node = at(share.nodes[i]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Length, in three dimensions area, of the boundary that contact candidates stand for once
-/// the body is deformed: what contact lengths and pressures of all results are over.
+/// @file  Tributary length (in three dimensions area) of the contact candidates on the deformed
+/// body. The contact lengths and pressures in all results are computed with it.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -13,21 +13,21 @@ namespace rondo::mesh {
 
 class DeformedBoundary {
  public:
-  /// The mesh must outlive it. The contact boundary is the curve, in three dimensions the surface,
-  /// that gives the candidates their tributaries; where none is, contact_edges alone count.
+  /// The mesh must outlive the object. The contact boundary is the curve (in three dimensions the
+  /// surface) that gives the candidates their tributaries; without one, it is contact_edges alone.
   explicit DeformedBoundary(const Mesh& mesh);
 
-  /// Tributary length or area of a candidate as the body is displaced, in whatever frame.
-  /// Undisplaced it is mesh.tributary to the last bit.
-  /// @param candidate place in mesh.boundary
+  /// Tributary length or area of a candidate on the body displaced by u, in any frame. Without
+  /// displacement it equals mesh.tributary bit for bit.
+  /// @param candidate index in mesh.boundary
   /// @param u (n) displacement, with three components in three dimensions [m]
   /// @return [m], in three dimensions [m²]; >= 0
   [[nodiscard]] double extent(std::size_t candidate, FieldView u) const noexcept;
 
  private:
-  /// A corner of a face of the contact surface, or an end of an edge, at a candidate.
+  /// A corner of a face of the contact surface, or an end of an edge, that is a candidate.
   struct Share {
-    Face nodes{};  ///< of an edge the first two count
+    Face nodes{};  ///< for an edge, only the first two are used
     std::size_t corner = 0;
     double undeformed = 0.0;
   };

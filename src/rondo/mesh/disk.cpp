@@ -11,14 +11,14 @@
 namespace rondo::mesh {
 namespace {
 
-/// One line of nodes, from the rim outwards; lines are counter-clockwise.
+/// A line of nodes from the rim outwards; the lines are in counter-clockwise order.
 struct Line {
   int first;  ///< node on the rim
-  int top;    ///< highest layer of the line: base layers, plus tread layers beside a land
+  int top;    ///< top layer of the line: base layers, plus tread layers beside a land
 };
 
 struct Layout {
-  int pitches, columns, land, base, layers;  ///< columns a pitch; land columns; layers below, above
+  int pitches, columns, land, base, layers;  ///< columns: per pitch, of land; layers: below, above
 };
 
 Layout layout_of(const Disk& d) {
@@ -63,7 +63,7 @@ void add_cells(Mesh& mesh, const Layout& l, const std::vector<Line>& lines) {
   }
 }
 
-/// Candidates: tops of the lands, each with half of the chords beside it on its own land.
+/// Candidates: tops of the lands, each with half of the adjacent chords on its own land.
 void add_boundary(Mesh& mesh, const Layout& l, const std::vector<Line>& lines) {
   const int n = static_cast<int>(lines.size());
   const bool grooved = l.columns > l.land;
@@ -87,7 +87,7 @@ void add_boundary(Mesh& mesh, const Layout& l, const std::vector<Line>& lines) {
   }
 }
 
-/// "rim": the inner boundary, clockwise, so that the body is on the left. "tread": the tops.
+/// "rim": the inner boundary, clockwise, so that the body is on its left. "tread": the tops.
 void add_curves(Mesh& mesh, const std::vector<Line>& lines) {
   Curve rim{"rim", {}};
   for (std::size_t i = 0; i < lines.size(); ++i)
@@ -134,7 +134,7 @@ Mesh make_disk(const Disk& disk) {
   mesh.coordinates.reserve(n);
   mesh.sector.reserve(n);
   mesh.sector_node.reserve(n);
-  mesh.cells.reserve(n);  // no more cells than nodes
+  mesh.cells.reserve(n);  // there are no more cells than nodes
   const std::vector<Line> lines = add_nodes(mesh, l, layer_radii(disk));
   add_cells(mesh, l, lines);
   add_boundary(mesh, l, lines);

@@ -10,7 +10,7 @@
 
 namespace rondo::mesh {
 
-/// Sculpture: equal pitches, each a land then a groove, counter-clockwise.
+/// Tread pattern: equal pitches, each a land followed by a groove, counter-clockwise.
 struct Tread {
   int pitches = 60;      ///< equal sectors of the disk, >= 3
   double depth = 0.012;  ///< height of the lands                      [m], 0 < depth < ro - ri
@@ -21,22 +21,22 @@ struct Tread {
 };
 
 struct Disk {
-  double outer_radius = 0.30;  ///< to the top of the tread             [m]
-  double inner_radius = 0.15;  ///< bonded to the rim                   [m], 0 < ri < ro
-  int radial = 12;             ///< layers between the radii (with a tread: below the grooves), >= 1
+  double outer_radius = 0.30;  ///< radius of the top of the tread        [m]
+  double inner_radius = 0.15;  ///< radius bonded to the rim              [m], 0 < ri < ro
+  int radial = 12;             ///< layers between the radii (with a tread: below its grooves), >= 1
   int circumferential = 180;   ///< columns of a smooth disk, >= 3; unused with a tread
-  double grading = 1.0;        ///< p >= 1: finer near the tread
+  double grading = 1.0;        ///< p >= 1: finer near the tread if p > 1
   std::optional<Tread> tread;
 };
 
-/// Column 0 (the first land) starts at -90°, straight down; columns counter-clockwise. Nodes are
-/// numbered sector after sector, from the rim outwards. @pre the bounds above.
+/// Column 0 (the first land) starts at -90°, straight down; the columns follow counter-clockwise.
+/// Nodes are numbered sector after sector, from the rim outwards. @pre the bounds above hold
 Mesh make_disk(const Disk& disk);
 
 /// Radii of the layers of nodes, from the rim to the top of the tread [m].
 std::vector<double> layer_radii(const Disk& disk);
 
-/// Number of nodes that make_disk would make, without making them (no overflow: 64 bits).
+/// Number of nodes that make_disk would make, computed without making them (64 bits: no overflow).
 std::size_t n_disk_nodes(const Disk& disk) noexcept;
 
 }  // namespace rondo::mesh

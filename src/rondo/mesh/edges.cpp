@@ -74,7 +74,7 @@ std::vector<Edge> in_order(std::span<const Edge> edges) {
   for (const Edge& edge : sorted) ends.push_back(edge[1]);
   std::ranges::sort(ends);
   std::vector<char> used(sorted.size(), 0);
-  std::vector<std::size_t> unused(sorted.size());  // of the edges that begin where this one does
+  std::vector<std::size_t> unused(sorted.size());  // of the edges that begin at the same node
   std::iota(unused.begin(), unused.end(), std::size_t{0});
   std::vector<Edge> ordered;
   ordered.reserve(sorted.size());

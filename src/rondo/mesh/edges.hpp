@@ -8,23 +8,23 @@
 
 namespace rondo::mesh {
 
-/// An edge as one cell sees it.
+/// An edge as seen from one cell.
 struct CellEdge {
   int high = 0;         ///< the larger of its node numbers
-  int cell = 0;         ///< place in Mesh::cells
-  bool rising = false;  ///< the cell runs through it from the smaller number to the larger
+  int cell = 0;         ///< index in Mesh::cells
+  bool rising = false;  ///< the cell passes it from the smaller to the larger node number
 };
 
-/// Sorted by the smaller node number, then the larger, then the cell.
+/// All edges, sorted by the smaller node number, then by the larger, then by the cell.
 class EdgeTable {
  public:
-  /// Time and memory in proportion to the cells. @pre every corner is a node of the mesh
+  /// Time and memory grow linearly with the cells. @pre every corner is a node of the mesh
   explicit EdgeTable(const Mesh& mesh);
 
-  /// What the cells on either side say of an edge: none, one (boundary), two (inside), or more.
+  /// The entries of an edge, one per cell that has it: none, one (boundary), two (inside), or more.
   [[nodiscard]] std::span<const CellEdge> find(Edge edge) const;
 
-  /// Every edge once: visit(smaller node, its cells).
+  /// Visits every edge once: visit(smaller node, its entries, one per cell).
   template <class Visit>
   void each(const Visit& visit) const {
     for (std::size_t low = 0; low + 1 < first_.size(); ++low)
@@ -36,21 +36,21 @@ class EdgeTable {
   }
 
  private:
-  std::vector<std::size_t> first_;  ///< (n + 1) where the edges of a smaller node begin
+  std::vector<std::size_t> first_;  ///< (n + 1) index of the first edge with this smaller node
   std::vector<CellEdge> edges_;
 };
 
-/// Edges of one cell only, the body on the left; in the table's order.
+/// Edges that only one cell has, with the body on the left, in the order of the table.
 std::vector<Edge> boundary_edges(const EdgeTable& table);
 
-/// (n) 1 at the nodes of the boundary.
+/// (n) 1 at nodes of the boundary.
 std::vector<char> boundary_flags(const EdgeTable& table, std::size_t n_nodes);
 
-/// Length of the longest edge, 0 where there is none [m]. @param x (n) places of the nodes
+/// Length of the longest edge, 0 if there is none [m]. @param x (n) positions of the nodes
 double longest_edge(std::span<const Vec2> x, std::span<const Edge> edges);
 
-/// Edges one after the other, as they follow each other: open lines first, then closed ones, each
-/// by the number of its first node; a closed one begins at its smallest number. @pre no edge twice
+/// The edges arranged so that each follows its predecessor: open lines first, then closed ones,
+/// both ordered by their first node; a closed line begins at its smallest node. @pre no edge twice
 std::vector<Edge> in_order(std::span<const Edge> edges);
 
 }  // namespace rondo::mesh

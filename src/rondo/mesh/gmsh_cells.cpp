@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Nodes and cells of a Gmsh file, and what may be wrong with them.
+/// Nodes and cells of a Gmsh file, and the faults that they may have.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,11 +19,11 @@ constexpr int triangle = 2, quadrilateral = 3;  // Gmsh's numbers of types
 struct RawCell {
   std::uint64_t tag = 0;
   std::size_t entity = 0;
-  Cell nodes{-1, -1, -1, -1};  ///< places in RawMesh::node_tags
+  Cell nodes{-1, -1, -1, -1};  ///< indices in RawMesh::node_tags
 };
 
-/// Elements of surfaces by surface, kind and tag, an order that every form of a file gives; those
-/// of a surface in several groups once only (MSH 2.2 has them once a group).
+/// Elements of surfaces in the order surface, type, tag, the same for every form of a file. An
+/// element of a surface in several groups appears once (MSH 2.2 repeats it per group).
 std::vector<RawCell> gather_cells(const RawMesh& raw, const TagIndex& index, Findings& findings) {
   std::vector<RawCell> cells;
   std::vector<std::uint64_t> lost;
@@ -68,7 +68,7 @@ void drop_repeats(const RawMesh& raw, std::vector<RawCell>& cells) {
   });
 }
 
-/// Nodes of cells, numbered by their tags.
+/// Collects the nodes of cells, numbered in the order of their tags.
 void number_nodes(const RawMesh& raw, const std::vector<RawCell>& cells, Draft& draft) {
   std::vector<char> used(raw.node_tags.size(), 0);
   for (const RawCell& cell : cells)
@@ -88,7 +88,7 @@ void number_nodes(const RawMesh& raw, const std::vector<RawCell>& cells, Draft& 
   }
 }
 
-/// Far enough from overflow that areas and moments of inertia are finite.
+/// A limit for coordinates, so far from overflow that areas and moments of inertia are finite.
 constexpr double farthest = 1e12;  // m
 
 void check_coordinates(const Draft& draft, Findings& findings) {
@@ -118,7 +118,7 @@ void check_plane(const RawMesh& raw, const Draft& draft, Findings& findings) {
       size = std::max(size, std::abs(raw.places[3 * k + i] - raw.places[3 * first + i]));
   }
   std::vector<std::size_t> out;
-  constexpr double rounding = 1e-9;  // of the size: text files may have ten digits
+  constexpr double rounding = 1e-9;  // relative to the size: text files may have ten digits
   for (std::size_t k = first; k < raw.node_tags.size(); ++k)
     if (draft.node_of[k] >= 0 && !(std::abs(raw.places[3 * k + 2] - z) <= rounding * size))
       out.push_back(k);

@@ -10,11 +10,11 @@ namespace {
 
 constexpr int line_type = 1;  // Gmsh's number
 
-/// A line element.
+/// A line element of a curve.
 struct CurveLine {
-  Edge nodes{-1, -1};  ///< of the mesh; -1: a node of no cell
+  Edge nodes{-1, -1};  ///< in the mesh; -1: the node is in no cell
   std::uint64_t tag = 0;
-  std::uint64_t first = 0, second = 0;  ///< tags of its nodes
+  std::uint64_t first = 0, second = 0;  ///< tags of its nodes in the file
 };
 
 Edge undirected_edge(const Edge& edge) {
@@ -38,8 +38,8 @@ std::vector<std::vector<CurveLine>> lines_of_entities(const CurveInput& in, cons
   return lines;
 }
 
-/// MSH 2.2 repeats the lines of a curve for each of its groups. Where they are not repeated, which
-/// line is of which group is known to the file, but not told by the library.
+/// MSH 2.2 repeats the lines of a curve for each of its groups. If they are not repeated, the file
+/// assigns lines to groups, but the Gmsh library does not report the assignment.
 void check_groups_of_22(const CurveInput& in, std::vector<std::vector<CurveLine>>& lines,
                         Findings& findings) {
   std::vector<std::string> mixed;
@@ -66,10 +66,10 @@ void check_groups_of_22(const CurveInput& in, std::vector<std::vector<CurveLine>
                "file as MSH 4.1");
 }
 
-/// What a group asks of its edges.
+/// The requirements on the edges of a group.
 struct Demand {
-  bool named = false;     ///< by the request: every line must be an edge of a cell
-  bool boundary = false;  ///< and have a cell on one side only
+  bool named = false;     ///< in the request: every line must be an edge of a cell
+  bool boundary = false;  ///< it must have a cell on one side only
 };
 
 Demand demand_on(const NamedGroup& group, const CurveInput& in) {
@@ -84,11 +84,11 @@ Demand demand_on(const NamedGroup& group, const CurveInput& in) {
 
 struct Sorted {
   std::vector<Edge> edges;
-  std::vector<CurveLine> loose;   ///< no edge of a cell
-  std::vector<CurveLine> inside;  ///< cells on both sides
+  std::vector<CurveLine> loose;   ///< not an edge of a cell
+  std::vector<CurveLine> inside;  ///< with cells on both sides
 };
 
-/// Each edge once, the body on its left.
+/// Sorts the lines of a group into edges, each once, with the body on its left.
 Sorted sort_lines(const NamedGroup& group, const std::vector<std::vector<CurveLine>>& lines,
                   const EdgeTable& table) {
   std::vector<CurveLine> all;
@@ -152,7 +152,7 @@ void name_lines(const NamedGroup& group, const Sorted& sorted, const CurveInput&
                  "for contact and pressure, curves of the boundary");
 }
 
-/// Nullptr: none is asked for.
+/// Nullptr: no such curve is requested.
 const Curve* curve_of(const std::string& name, const CurveInput& in, const Mesh& mesh) {
   const NamedGroup* const group = name.empty() ? nullptr : find_group(in.groups, 1, name);
   if (group == nullptr) return nullptr;
@@ -181,7 +181,7 @@ void add_candidates(const Curve& curve, Mesh& mesh) {
   }
 }
 
-/// Nodes of the curve that are clamped.
+/// The nodes of the curve that are clamped.
 std::vector<int> clamped_nodes_of(const Curve& curve, const Mesh& mesh) {
   const std::vector<char> clamped = clamped_flags(mesh);
   std::vector<int> nodes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Steps from a raw Gmsh file to a mesh; each adds what it finds wrong.
+/// @file  Steps from a raw Gmsh file to a mesh; each step adds the faults that it finds.
 #pragma once
 #include <fmt/format.h>
 
@@ -19,7 +19,7 @@
 
 namespace rondo::mesh {
 
-/// What is wrong, and what is only worth saying.
+/// Faults, and warnings that do not prevent reading.
 struct Findings {
   std::string file;
   std::vector<Fault> faults;
@@ -47,39 +47,39 @@ struct MeshFile {
   bool version_22 = false;  ///< otherwise 4.1
 };
 
-/// Opens it and looks at its first lines. Throws.
+/// Opens the file and looks at its first lines. Throws if it cannot be read.
 MeshFile inspect(const std::filesystem::path& file);
 
-/// All the steps below. Throws InputError.
+/// Does all the steps below. Throws InputError.
 ReadMesh mesh_of(const RawMesh& raw, bool version_22, const MeshRequest& request);
 
 // Physical groups -----------------------------------------------------------------------------
 
-/// Groups of one dimension and one name.
+/// The physical groups of one dimension that share one name.
 struct NamedGroup {
   int dimension = 0;
-  std::string name;  ///< its number where it has no name
+  std::string name;  ///< its number if it has no name
   std::vector<int> tags;
-  std::vector<std::size_t> entities;  ///< places in RawMesh::entities
+  std::vector<std::size_t> entities;  ///< indices in RawMesh::entities
   bool empty = true;                  ///< no element is in it
 };
-/// Ascending by dimension, then by the first tag.
+/// The groups, ascending by dimension, then by the first tag.
 std::vector<NamedGroup> named_groups(const RawMesh& raw);
 
-/// Says what was made of groups that share a name, and which surfaces have no elements.
+/// Warns of groups that share a name, how they are read, and of surfaces without elements.
 void warn_of_groups(const RawMesh& raw, const std::vector<NamedGroup>& groups, Findings& findings);
 
-/// Finds fault with names of the request that the file does not have.
+/// Adds a fault for each name of the request that the file does not have.
 void check_names(const MeshRequest& request, const std::vector<NamedGroup>& groups,
                  Findings& findings);
 
-/// nullptr: none, or an empty name.
+/// nullptr: there is no such group, or the name is empty.
 const NamedGroup* find_group(const std::vector<NamedGroup>& groups, int dimension,
                              std::string_view name);
 
 // Nodes and cells -----------------------------------------------------------------------------
 
-/// From the file's tags to places in RawMesh::node_tags.
+/// Maps the file's tags to indices in RawMesh::node_tags.
 class TagIndex {
  public:
   explicit TagIndex(const std::vector<std::uint64_t>& tags);
@@ -90,36 +90,36 @@ class TagIndex {
 
  private:
   std::vector<std::pair<std::uint64_t, int>> sorted_;
-  std::vector<int> dense_;  ///< by tag, where there are few gaps
+  std::vector<int> dense_;  ///< index by tag, used if there are few gaps
   std::vector<std::uint64_t> repeated_;
 };
 
-/// A mesh in the making, with what its numbers are called in the file.
+/// A mesh in the making, with the numbers that the file gives its nodes and cells.
 struct Draft {
   double scale = 1.0;
   Mesh mesh;
   std::vector<std::uint64_t> node_tag;   ///< (n)
   std::vector<std::uint64_t> cell_tag;   ///< (e)
-  std::vector<std::size_t> cell_entity;  ///< (e) place in RawMesh::entities
-  std::vector<int> node_of;              ///< place in RawMesh::node_tags -> node; -1: dropped
+  std::vector<std::size_t> cell_entity;  ///< (e) index in RawMesh::entities
+  std::vector<int> node_of;              ///< index in RawMesh::node_tags -> node; -1: dropped
 
-  /// "element 12 at (0.5, 1)", "node 3 at (0, 0)": places as they are in the file.
+  /// "element 12 at (0.5, 1)", "node 3 at (0, 0)": positions in the file's unit of length.
   [[nodiscard]] std::string cell_text(int cell) const;
   [[nodiscard]] std::string node_text(int node) const;
   [[nodiscard]] std::string place_text(Vec2 x) const;
 };
 
-/// Types of elements that cannot be read.
+/// Adds a fault for types of elements that cannot be read.
 void check_types(const RawMesh& raw, const TagIndex& index, Findings& findings);
 
-/// Nodes of cells, and cells.
+/// Makes the nodes and cells of the mesh.
 Draft draft_mesh(const RawMesh& raw, const TagIndex& index, const MeshRequest& request,
                  Findings& findings);
 
-/// Shape and sense of the cells; turns all of them if all are clockwise.
+/// Checks shape and sense of the cells; reverses all of them if all are clockwise.
 void check_shapes(const RawMesh& raw, Draft& draft, Findings& findings);
 
-/// Cells given twice, folded meshes, nodes at one place. @pre cells of good shape
+/// Checks for duplicate cells, folded meshes and coincident nodes. @pre cells of good shape
 void check_joints(const Draft& draft, const EdgeTable& table, Findings& findings);
 
 // Regions and curves --------------------------------------------------------------------------
@@ -137,7 +137,7 @@ struct CurveInput {
 };
 void add_curves(const CurveInput& in, Draft& draft, Findings& findings);
 
-/// Clamped nodes and contact candidates. @pre add_curves found no fault
+/// Adds clamped nodes and contact candidates. @pre add_curves found no fault
 void add_boundary(const CurveInput& in, Draft& draft, Findings& findings);
 
 }  // namespace rondo::mesh

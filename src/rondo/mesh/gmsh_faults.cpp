@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What the checks of a mesh find, in the words and numbers of the Gmsh file.
+/// Reports what the checks of a mesh find, with the words and numbers of the Gmsh file.
 #include <algorithm>
 #include <array>
 
@@ -27,7 +27,7 @@ void name_cells(const char* what, const char* allowed, const std::vector<int>& c
       allowed);
 }
 
-/// Surfaces whose cells are all clockwise: a usual slip, and easily cured.
+/// Names surfaces whose cells are all clockwise: a common mistake that is easy to correct.
 std::string reversed_surfaces(const RawMesh& raw, const std::vector<int>& clockwise,
                               const Draft& draft) {
   std::vector<std::size_t> all(raw.entities.size(), 0), wrong(raw.entities.size(), 0);
@@ -83,8 +83,8 @@ void name_crowded(const std::vector<BadEdge>& edges, const Draft& draft, Finding
                "at most one cell on each side of an edge");
 }
 
-/// Two nodes at one place are right where two bodies or the sides of a cut touch, and wrong where
-/// the parts should be one; a node inside a body can never share its place.
+/// Two coincident nodes are correct where two bodies or the sides of a cut touch, and wrong where
+/// the parts should be connected. A node inside a body must never coincide with another.
 void name_coincident(const Draft& draft, const EdgeTable& table, Findings& findings) {
   const std::vector<char> on_boundary = boundary_flags(table, draft.mesh.n_nodes());
   std::vector<std::array<int, 2>> touching, inside;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Physical groups: their names, and the regions of cells that they make.
+/// Physical groups: their names, and the regions of cells that they define.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -126,7 +126,7 @@ std::vector<NamedGroup> named_groups(const RawMesh& raw) {
 
 namespace {
 
-/// MSH 4.1 lists what is in no physical group, and is not saved with groups, all the same.
+/// MSH 4.1 also lists surfaces in no physical group, whose elements are not saved with groups.
 void warn_of_empty_surfaces(const RawMesh& raw, Findings& findings) {
   std::vector<char> filled(raw.entities.size(), 0);
   for (const RawBlock& block : raw.blocks)
@@ -186,7 +186,7 @@ void add_regions(const RawMesh& raw, const std::vector<NamedGroup>& groups, Draf
   name_overlaps(raw, groups, of_entity, findings);
 
   Mesh& mesh = draft.mesh;
-  std::vector<int> place(groups.size() + 1, -1);  // the last: of cells in no physical surface
+  std::vector<int> place(groups.size() + 1, -1);  // last: cells in no physical surface
   const auto group_of = [&](std::size_t cell) {
     const auto& of = of_entity[draft.cell_entity[cell]];
     return of.empty() ? groups.size() : of.front();

@@ -31,16 +31,16 @@ bool can_run(const fs::path& program) {
   return fs::is_regular_file(program, error) && access(program.c_str(), X_OK) == 0;
 }
 
-/// Threads would only cost: the numerical libraries of Gmsh start one a core when they are loaded.
+/// Sets one thread: the numerical libraries of Gmsh would start one per core when loaded.
 std::vector<char*> child_environment() {
   static char blas[] = "OPENBLAS_NUM_THREADS=1", openmp[] = "OMP_NUM_THREADS=1";
-  std::vector<char*> variables{blas, openmp};  // the first of a name counts
+  std::vector<char*> variables{blas, openmp};  // the first variable of a name counts
   for (char** at = environ; *at != nullptr; ++at) variables.push_back(*at);
   variables.push_back(nullptr);
   return variables;
 }
 
-/// Owns what posix_spawn wants initialised and destroyed.
+/// Owns the objects that posix_spawn requires to be initialised and destroyed.
 struct SpawnSettings {
   SpawnSettings(int output, int errors) {
     posix_spawn_file_actions_init(&actions);
@@ -66,7 +66,7 @@ struct SpawnSettings {
   posix_spawnattr_t attributes{};
 };
 
-/// None where the system does not keep it (SIGCHLD is ignored).
+/// None if the system does not keep the status (SIGCHLD is ignored).
 std::optional<int> status_of(pid_t pid) {
   int status = 0;
   while (waitpid(pid, &status, 0) < 0)

@@ -9,10 +9,10 @@
 
 namespace rondo::mesh {
 
-/// Throws FileError if there is none.
+/// The path of rondo-mesh-reader. Throws FileError if there is none.
 std::filesystem::path find_reader_program();
 
-/// Runs until its end is asked for; killed if that never happens.
+/// The child runs until wait() has seen it end; if wait() is never called, it is killed.
 class ReaderProgram {
  public:
   ReaderProgram(std::filesystem::path program, const std::filesystem::path& file);
@@ -20,13 +20,13 @@ class ReaderProgram {
   ReaderProgram(const ReaderProgram&) = delete;
   ReaderProgram& operator=(const ReaderProgram&) = delete;
 
-  /// Up to `size` bytes of its output; 0: no more.
+  /// Reads up to `size` bytes of its output; returns 0 at the end.
   std::size_t read(void* data, std::size_t size);
 
-  /// Waits for its end. @return how it ended, in words; empty: as it should
+  /// Waits for its end. @return how it ended, in words; empty: without an error
   std::string wait();
 
-  /// Ends it now: what it wrote is of no use.
+  /// Ends it now, when its output is of no use.
   void kill();
 
   [[nodiscard]] const std::filesystem::path& program() const { return program_; }
@@ -37,7 +37,7 @@ class ReaderProgram {
   std::filesystem::path program_;
   pid_t pid_ = -1;
   int pipe_ = -1;
-  int errors_ = -1;  ///< file in memory that takes what it says besides
+  int errors_ = -1;  ///< file in memory that receives its other messages
 };
 
 }  // namespace rondo::mesh

@@ -36,7 +36,7 @@ class Stream {
     return value;
   }
 
-  /// `bytes`: what one of the things takes in a file at least.
+  /// `bytes`: the least that one of the items takes in a file.
   std::size_t count(std::uint64_t bytes = 1) {
     const auto n = get<std::uint64_t>();
     if (n > file_bytes_ / bytes) throw BadStream{};
@@ -94,10 +94,10 @@ RawEntity read_entity(Stream& stream) {
   return entity;
 }
 
-/// Where in RawMesh::entities one of a dimension and a tag stands.
+/// Maps dimension and tag to the index in RawMesh::entities.
 using EntityPlaces = std::map<std::pair<int, int>, std::size_t>;
 
-/// An element takes two characters a node in a file at least.
+/// An element takes at least two characters per node in a file.
 RawBlock read_block(Stream& stream, const RawMesh& raw, const EntityPlaces& places) {
   const auto dimension = stream.get<int>(), tag = stream.get<int>(), type = stream.get<int>();
   const auto entity = places.find({dimension, tag});
@@ -124,7 +124,7 @@ RawMesh read_mesh(Stream& stream) {
   for (const RawEntity& entity : raw.entities)
     places.emplace(std::pair{entity.dimension, entity.tag}, places.size());
   if (places.size() != raw.entities.size()) throw BadStream{};
-  const std::size_t n = stream.count(8);  // "1 0 0 0" and the end of the line
+  const std::size_t n = stream.count(8);  // "1 0 0 0" and a line feed
   raw.node_tags = stream.array<std::uint64_t>(n);
   raw.places = stream.array<double>(3 * n);
   for (std::size_t left = stream.count(); left > 0; --left)

@@ -34,15 +34,15 @@ struct RawEntity {
 
 /// The elements of one type on one entity.
 struct RawBlock {
-  std::size_t entity = 0;            ///< place in RawMesh::entities
-  std::size_t type = 0;              ///< place in RawMesh::types
+  std::size_t entity = 0;            ///< index in RawMesh::entities
+  std::size_t type = 0;              ///< index in RawMesh::types
   std::vector<std::uint64_t> tags;   ///< (m)
   std::vector<std::uint64_t> nodes;  ///< (m, nodes per element) tags
 };
 
-/// Counts and places of entities and types are right; tags of nodes are as the file has them.
+/// Counts and indices of entities and types are checked; tags of nodes are those of the file.
 struct RawMesh {
-  std::uint64_t nodes_in_file = 0;    ///< 0: not known
+  std::uint64_t nodes_in_file = 0;    ///< 0: unknown
   std::vector<std::string> warnings;  ///< for the user, one line each
   std::vector<RawType> types;
   std::vector<RawGroup> groups;
@@ -52,27 +52,27 @@ struct RawMesh {
   std::vector<RawBlock> blocks;
 };
 
-/// The stream of rondo-mesh-reader ended early, or says what no such stream says.
+/// The stream of rondo-mesh-reader ended early or does not have the form of such a stream.
 struct BadStream {
   bool ended = false;
 };
 
-/// A mesh, or why there is none.
+/// A mesh, or the reason why there is none.
 struct RawStream {
   std::optional<RawMesh> mesh;
   std::string why;
 };
 
-/// Up to `size` bytes into `data`; @return how many, 0: no more.
+/// Reads up to `size` bytes into `data`; @return the number of bytes read, 0: end.
 using ReadBytes = std::function<std::size_t(void* data, std::size_t size)>;
 
-/// Reads what gmsh_stream.hpp describes. Nothing is believed: a count is taken only if a file of
-/// `file_bytes` can hold as many things. Throws BadStream.
+/// Reads what gmsh_stream.hpp describes. The stream is not trusted: a count is accepted only if a
+/// file of `file_bytes` can hold as many items. Throws BadStream.
 RawStream read_stream(const ReadBytes& read, std::uint64_t file_bytes);
 
 /// Starts rondo-mesh-reader on a file and reads what it writes. The program is the one named by the
 /// environment variable RONDO_MESH_READER, or the one beside the running program, or the installed
-/// one. Throws InputError where the file is the reason, FileError where the machine is.
+/// one. Throws InputError if the cause is the file, FileError if it is the machine.
 /// @pre the file can be read
 RawMesh read_raw_mesh(const std::filesystem::path& file, std::uint64_t file_bytes);
 

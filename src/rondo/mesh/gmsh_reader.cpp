@@ -22,10 +22,10 @@ namespace {
 constexpr const char* formats =
     "MSH 2.2 or 4.1, text or binary: gmsh FILE -save -format msh41 -o NEW.msh";
 
-/// An element takes six bytes at least: below this, cells and nodes can be counted by int.
+/// An element takes at least six bytes, so that cells and nodes of smaller files fit into int.
 constexpr std::uint64_t largest_file = 12'000'000'000;
 
-/// Throws FileError: why the file cannot be opened.
+/// Throws FileError with the reason why the file cannot be opened.
 std::pair<std::string, std::uint64_t> beginning_of(const std::filesystem::path& file) {
   demand_regular_file(file);
   const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC);
@@ -68,7 +68,7 @@ MeshFile inspect(const std::filesystem::path& file) {
   if (bytes > largest_file)
     throw InputError(file_fault(file, fmt::format("has {:.3g} GB, more than can be read",
                                                   static_cast<double>(bytes) * 1e-9)));
-  // Only a mesh gets as far as the library: it would run any other text as a script.
+  // Only a mesh may reach the library, which would run any other text as a script.
   const std::string heading = "$MeshFormat";
   const auto at = text.starts_with("$Comments") ? text.find("\n" + heading) : text.find(heading);
   if (at == std::string::npos || (at > 0 && !text.starts_with("$Comments")))

@@ -10,11 +10,11 @@
 
 namespace rondo::mesh {
 
-/// Names are those of physical groups; a group without a name goes by its number ("7").
+/// All names are those of physical groups; a group without a name is called by its number ("7").
 struct MeshRequest {
   std::filesystem::path file{};
   double scale = 1.0;                 ///< m per unit of length of the file, > 0
-  std::string clamped{};              ///< curve of nodes that are held; empty: none
+  std::string clamped{};              ///< curve of clamped nodes; empty: none
   std::string contact{};              ///< curve of contact candidates; empty: none
   std::vector<std::string> curves{};  ///< further ones that must exist, each a part of the boundary
   std::vector<std::string> surfaces{};  ///< further ones that must exist
@@ -25,13 +25,13 @@ struct ReadMesh {
   std::vector<std::string> warnings;  ///< for the user, one line each
 };
 
-/// Numbering: nodes by their tags in the file, cells by surface, kind and tag. `boundary`: open
-/// lines of the contact curve first, then closed ones, each with the body on its left; nodes that
-/// are clamped are left out, and contact_edges are those between nodes that remain. `tributary`
-/// counts every edge of the curve. `curves` has all physical curves of the file; an edge with cells
-/// on both sides, which only a curve that is not asked for by `contact` or `curves` may have, keeps
-/// its sense in the file. A node or an edge may be in several curves, a cell in one surface only.
-/// Throws InputError with all faults of a kind, FileError when the file cannot be opened or the
+/// Nodes are numbered by their tags in the file, cells by surface, type and tag.
+/// `boundary` holds the open lines of the contact curve first, then the closed ones,
+/// each with the body on its left. Clamped nodes are left out, and contact_edges join
+/// the nodes that remain. `tributary` includes every edge of the curve. `curves` has
+/// all physical curves of the file. An edge with cells on both sides keeps its sense
+/// in the file; only curves not named by `contact` or `curves` may have such edges. A
+/// node or an edge may be in several curves, a cell in one surface only.
 /// program that reads it cannot be run.
 ReadMesh read_gmsh(const MeshRequest& request);
 

@@ -10,7 +10,7 @@
 namespace rondo::mesh {
 namespace {
 
-constexpr double slack = 1e-9;  ///< of a cell's own coordinates: its edges belong to it
+constexpr double slack = 1e-9;  ///< in a cell's own coordinates: its edges belong to it
 
 std::array<double, 4> barycentric(std::span<const Vec2> x, Vec2 p) {
   const double area = cross(x[1] - x[0], x[2] - x[0]);
@@ -18,14 +18,14 @@ std::array<double, 4> barycentric(std::span<const Vec2> x, Vec2 p) {
   return {1.0 - b - c, b, c, 0.0};
 }
 
-/// At (ξ, η) in [-1, 1]².
+/// Bilinear shape functions at (ξ, η) in [-1, 1]².
 std::array<double, 4> bilinear(double xi, double eta) {
   return {0.25 * (1.0 - xi) * (1.0 - eta), 0.25 * (1.0 + xi) * (1.0 - eta),
           0.25 * (1.0 + xi) * (1.0 + eta), 0.25 * (1.0 - xi) * (1.0 + eta)};
 }
 
 std::optional<std::array<double, 4>> bilinear_at(std::span<const Vec2> x, Vec2 p) {
-  constexpr int most = 30;  // some 5 are enough inside a convex cell
+  constexpr int most = 30;  // about 5 are enough inside a convex cell
   const Vec2 a = 0.25 * (x[1] + x[2] - x[0] - x[3]), b = 0.25 * (x[2] + x[3] - x[0] - x[1]),
              c = 0.25 * (x[0] + x[2] - x[1] - x[3]),
              middle = 0.25 * ((x[0] + x[1]) + (x[2] + x[3]));
@@ -34,7 +34,7 @@ std::optional<std::array<double, 4>> bilinear_at(std::span<const Vec2> x, Vec2 p
     const Vec2 miss = p - middle - xi * a - eta * b - (xi * eta) * c;
     const Vec2 by_xi = a + eta * c, by_eta = b + xi * c;
     const double jacobian = cross(by_xi, by_eta);
-    if (!(jacobian > 0.0)) return std::nullopt;  // out of the cell, where the map folds
+    if (!(jacobian > 0.0)) return std::nullopt;  // outside the cell, where the map folds
     const double step_xi = cross(miss, by_eta) / jacobian, step_eta = cross(by_xi, miss) / jacobian;
     xi += step_xi;
     eta += step_eta;
@@ -90,7 +90,7 @@ CellGrid::CellGrid(std::span<const Vec2> coordinates, std::span<const Cell> cell
   columns_ = static_cast<int>(size.x * inverse_) + 1;
   rows_ = static_cast<int>(size.y * inverse_) + 1;
   const std::size_t squares = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-  start_.assign(squares + 2, 0);  // one place more while they are counted
+  start_.assign(squares + 2, 0);  // one more entry while they are counted
   for (std::size_t e = 0; e < cells.size(); ++e)
     each_square(e, [&](std::size_t s) { ++start_[s + 2]; });
   for (std::size_t s = 2; s < start_.size(); ++s) start_[s] += start_[s - 1];
@@ -107,7 +107,7 @@ std::array<int, 2> CellGrid::square_of(Vec2 p) const {
   return {place(p.x, low_.x, columns_), place(p.y, low_.y, rows_)};
 }
 
-/// Squares that the box of cell e, widened by the slack, touches.
+/// Visits the squares that the bounding box of cell e, widened by the slack, touches.
 template <class Visit>
 void CellGrid::each_square(std::size_t e, Visit&& visit) const {
   const Corners c = corners(e);

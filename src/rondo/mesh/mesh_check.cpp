@@ -11,8 +11,8 @@
 namespace rondo::mesh {
 namespace {
 
-/// Of the square of the longest edge. Well above the rounding of coordinates that are some 10⁴
-/// element sizes away from zero, well below the thinnest element a step could bear.
+/// Relative to the squared longest edge. It is well above the rounding of coordinates some 10⁴
+/// element sizes away from zero, and well below the thinnest element that a step tolerates.
 constexpr double flat = 1e-10;
 
 struct Corners {
@@ -40,7 +40,7 @@ using CellKey = std::array<int, 4>;
 
 CellKey key_of(const Cell& cell) {
   CellKey key = cell;
-  std::ranges::sort(key);  // -1 first: a triangle is never a quadrilateral's duplicate
+  std::ranges::sort(key);  // -1 first: a triangle is never a duplicate of a quadrilateral
   return key;
 }
 
@@ -48,12 +48,12 @@ int smallest_node(const Cell& cell) {
   return *std::min_element(cell.begin(), cell.begin() + n_corners(cell));
 }
 
-/// Squares of a grid, each with the first node found in it; open addressing.
+/// Squares of a grid, each with the first node found in it; a hash table with open addressing.
 class Squares {
  public:
   explicit Squares(std::size_t n) : slots_(std::bit_ceil(2 * n + 1)) {}
 
-  /// @return the node that was in the square before; -1: none, `node` is now
+  /// @return the node that was in the square before; -1: none, and `node` is stored
   int enter(std::int64_t x, std::int64_t y, int node) {
     const std::size_t mask = slots_.size() - 1;
     for (std::size_t k = mixed(x, y) & mask;; k = (k + 1) & mask) {
@@ -73,7 +73,7 @@ class Squares {
   };
 
   static std::size_t mixed(std::int64_t x, std::int64_t y) {
-    // Odd multipliers spread the bits (2^64 over the golden ratio); the high bits are the best.
+    // Odd multipliers spread the bits (2^64 over the golden ratio); the high bits are best mixed.
     constexpr std::uint64_t golden = 0x9e3779b97f4a7c15;
     std::uint64_t h = static_cast<std::uint64_t>(x) * golden;
     h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(y)) * golden;
@@ -172,8 +172,8 @@ std::vector<std::array<int, 2>> coincident_nodes(const Mesh& mesh) {
   }
   const double side = 2e-9 * std::max(high.x - low.x, high.y - low.y);
   if (!(side > 0.0)) return {};
-  // Two nodes within half a side of each other, along x and y, are in one square of at least one of
-  // four grids that are shifted by half a side.
+  // Two nodes that are within half a side of each other, in x and in y, share a square in at least
+  // one of four grids shifted by half a side.
   std::vector<int> earlier(mesh.n_nodes(), -1);
   for (const Vec2 shift : {Vec2{0.0, 0.0}, Vec2{0.5, 0.0}, Vec2{0.0, 0.5}, Vec2{0.5, 0.5}}) {
     Squares squares(mesh.n_nodes());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  How a user defines a physical group: the line of a Gmsh geometry, for messages.
+/// @file  The line of a Gmsh geometry that defines a physical group, shown to the user in messages.
 #pragma once
 #include <string>
 #include <string_view>

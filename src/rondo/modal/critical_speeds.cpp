@@ -27,13 +27,13 @@ class CriticalProblem {
 
   [[nodiscard]] int n_harmonics() const noexcept { return elastic_.count(); }
 
-  /// From here on all is about harmonic n.
+  /// Selects harmonic n for all following calls.
   void choose(int n) {
     n_ = n;
     a_ = elastic_.lower(n, 1.0, 0.0);
     if (stiffening_) a_sigma_ = stiffening_->lower(n, 1.0, 0.0);
   }
-  /// A - s² Q is positive definite: no wave of this harmonic stands still at s or below.
+  /// Whether A - s² Q is positive definite: no wave of this harmonic stands still at s or below.
   [[nodiscard]] bool none_up_to(double squared) const {
     const double n = n_;
     Matrix m = a_;
@@ -74,7 +74,7 @@ class CriticalProblem {
     if (stiffening_) y -= a_sigma_.selfadjointView<Eigen::Lower>() * x;
     return y;
   }
-  /// None is lower than the one found.
+  /// Whether no root is lower than the one found.
   [[nodiscard]] bool is_lowest(double mu) const { return none_up_to((1.0 - 1e-6) / mu); }
 
   fem::Harmonics elastic_;

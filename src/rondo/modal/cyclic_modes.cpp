@@ -17,7 +17,7 @@ struct Candidate {
   HarmonicRoot root;
   int harmonic;
   bool partner;
-  int modes;  ///< that it stands for: 2 at rest, where 0 < n < N/2
+  int modes;  ///< number of modes of this root: 2 at rest, if 0 < n < N/2
 
   [[nodiscard]] double omega() const noexcept { return std::abs(root.omega); }
 };
@@ -40,7 +40,7 @@ class Lowest {
                                                                                       void();
     }
   }
-  /// What is not below it is of no interest.
+  /// Roots above this are not needed.
   [[nodiscard]] double bound() const noexcept {
     return full_ ? found_.back().omega() : std::numeric_limits<double>::infinity();
   }
@@ -52,7 +52,7 @@ class Lowest {
   bool full_ = false;
 };
 
-/// Negative eigenvalues of all K'(n); in harmonic 0 of a free disk only its rotation may be one.
+/// Number of negative eigenvalues of all K'(n); harmonic 0 of a free disk is left out (8.5).
 int count_unstable(HarmonicProblem& problem, bool free) {
   int unstable = 0;
   for (int n = free ? 1 : 0; n < problem.n_harmonics(); ++n) {
@@ -62,7 +62,7 @@ int count_unstable(HarmonicProblem& problem, bool free) {
   return unstable;
 }
 
-/// Adds what harmonic n has below the bound. False where not as many are found as were counted.
+/// Adds the roots of harmonic n below the bound. False if fewer are found than were counted.
 bool add_harmonic(HarmonicProblem& problem, int n, double spin, int count, Lowest& lowest) {
   problem.choose(n);
   const double bound = lowest.bound();
@@ -77,13 +77,13 @@ bool add_harmonic(HarmonicProblem& problem, int n, double spin, int count, Lowes
   return static_cast<int>(roots.size()) == counts.positive + counts.negative;
 }
 
-/// The translations of a free disk in spin move on at constant speed as the fixed frame sees them:
-/// a double root with the single vector w (8.5).
+/// Adds rigid-body motions. Translations of a spinning free disk have constant velocity in the
+/// fixed frame: a double root with the single vector w (8.5).
 void add_rigid(const CyclicBody& body, HarmonicProblem& problem, double spin,
                std::vector<Mode>& modes) {
   for (const int n : {0, 1}) {
     problem.choose(n);
-    if (n == 0 && spin != 0.0) continue;  // with the vibrations of harmonic 0
+    if (n == 0 && spin != 0.0) continue;  // they are among the vibrations of harmonic 0
     const HarmonicRoot root{spin, problem.rigid()};
     std::vector<Mode> rigid = modes_of(body, spin, n, problem.has_partner(), root);
     if (n == 1 && spin != 0.0) rigid.push_back(rigid.front());

@@ -11,8 +11,8 @@ namespace rondo::modal {
 
 using Eigen::Index;
 
-/// w e^{λt} with λ² w + 2sJ λ w + A' w = 0, λ = iω: real, of twice the size. The rotation has the
-/// two roots of least modulus.
+/// Solves λ² w + 2sJ λ w + A' w = 0 for w e^{λt}, λ = iω, as a real problem of twice the size. The
+/// rotation has the two roots of smallest modulus.
 RotationalRoots rotational_roots(const Eigen::MatrixXd& a, double spin) {
   const Index n = a.rows();
   Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(2 * n, 2 * n);

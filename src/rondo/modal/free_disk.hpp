@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Harmonic 0 of a free disk in spin, where K' is indefinite (docs/theory.md, 8.5).
+/// @file  Harmonic 0 of a spinning free disk, for which K' is indefinite (docs/theory.md, 8.5).
 #pragma once
 #include <vector>
 
@@ -10,10 +10,10 @@ namespace rondo::modal {
 struct RotationalRoots {
   std::vector<HarmonicRoot> vibrations;  ///< ω > 0, ascending
   HarmonicRoot rotation;
-  double growth = 0.0;  ///< of the rotation, > 0 where nothing holds it back [1/s]
+  double growth = 0.0;  ///< of the rotation, > 0 if nothing restrains it [1/s]
 };
 
-/// By a dense eigensolver without symmetry.
+/// Uses a dense eigensolver for unsymmetric matrices.
 /// @param a A' = A(0) - s², as HarmonicProblem::dense_rotational() gives it. @param spin s ≠ 0
 RotationalRoots rotational_roots(const Eigen::MatrixXd& a, double spin);
 

@@ -41,7 +41,7 @@ void HarmonicProblem::choose(int n) {
   rigid_.resize(size());
   const Complex i(0.0, 1.0);
   for (Index a = 0; a < rigid_.size(); a += 2) {
-    // Polar components of sector 0: of J X, and of e_x, which is Re (1, i) e^{iφ} in sector φ.
+    // Polar components in sector 0 of J X and of e_x, which is Re (1, i) e^{iφ} in sector φ.
     const Vec2 x = body_.reference[body_.stiffness.node(static_cast<std::size_t>(a / 2), 0)];
     rigid_[a] = n == 0 ? Complex(-x.y) : Complex(1.0);
     rigid_[a + 1] = n == 0 ? Complex(x.x) : i;
@@ -58,15 +58,15 @@ void HarmonicProblem::take_rigid_out(Eigen::Ref<VectorXcd> w) const {
   if (rigid_.size() > 0) w -= rigid_.dot(w) * rigid_;
 }
 
-/// Of A' - ω² + ω s G, without the rigid-body motion: there it is -ω² or -(ω ± s)², negative. A
-/// pivot of exactly zero is met at another ω next to it.
+/// Number of negative eigenvalues of A' - ω² + ω s G, without the rigid-body motion, whose value
+/// there, -ω² or -(ω ± s)², is negative. If a pivot is exactly zero, an ω next to it is used.
 int HarmonicProblem::negative(double omega) {
   std::optional<int> found;
   for (int tries = 0; tries < 8 && !found; ++tries) {
     const double w = omega * (1.0 + tries * 1e-12);
     Matrix a = harmonics_.lower(n_, 1.0, -spin_ * spin_ - w * w);
     for (Index k = 0; k < a.cols(); k += 2) {
-      // From its diagonal on, the next entry of the column is that of y in the row of x's node.
+      // In a column from its diagonal on, the next entry is that of y in the row of x's node.
       const Index next = a.outerIndexPtr()[k] + 1;
       RONDO_ASSERT(a.innerIndexPtr()[next] == k + 1, k);
       a.valuePtr()[next] += Complex(0.0, 2.0 * w * spin_);
@@ -96,7 +96,7 @@ double HarmonicProblem::sigma_with(int count) {
   }
 }
 
-/// A' + shift I.
+/// Factorises A' + shift I.
 void HarmonicProblem::factorise(double shift) {
   lower_ = harmonics_.lower(n_, 1.0, -spin_ * spin_);
   Matrix a = lower_;
@@ -146,7 +146,7 @@ Operator<HarmonicProblem::Complex> HarmonicProblem::in_spin() {
 
 std::vector<HarmonicRoot> HarmonicProblem::roots_below(double sigma, RootCounts counts) {
   const bool rest = spin_ == 0.0;
-  // Some lower than the lowest frequency: rigid-body motions make A singular.
+  // A value below the lowest frequency, because rigid-body motions make A singular.
   const double shift = rest && rigid_.size() > 0 ? 0.1 * sigma * sigma / size() : 0.0;
   const Operator<Complex> op = rest ? at_rest(shift) : in_spin();
   const double limit = rest ? 1.0 / (sigma * sigma + shift) : 1.0 / sigma;
@@ -159,7 +159,7 @@ std::vector<HarmonicRoot> HarmonicProblem::roots_below(double sigma, RootCounts 
     if (!(std::abs(mu) > limit) || (rest && mu < 0.0)) continue;
     HarmonicRoot root;
     root.omega = rest ? std::sqrt(std::max(0.0, 1.0 / mu - shift)) : 1.0 / mu;
-    root.w = op.apply(space.vector(ritz, k)).head(size());  // once more: less of what is far off
+    root.w = op.apply(space.vector(ritz, k)).head(size());  // again: improves the vector
     root.w.normalize();
     roots.push_back(std::move(root));
   }

@@ -2,7 +2,7 @@
 /// @file  One harmonic of a body of equal sectors in constant spin (docs/theory.md, 8.2): with
 /// w = M^½ φ of one sector, A' = A(n) - s² and the Hermitian 2iJ,
 ///   (A' - ω² + 2iωsJ) w = 0,                                                              (8.2)
-/// where ω may be of both signs: w e^{i(nϑ + ωt)} travels clockwise where ω > 0.
+/// where ω may have both signs: w e^{i(nϑ + ωt)} travels clockwise if ω > 0.
 #pragma once
 #include <Eigen/SparseCholesky>
 #include <complex>
@@ -14,13 +14,13 @@
 
 namespace rondo::modal {
 
-/// A root of (8.2) and its unit vector.
+/// A root of (8.2) and its normalised vector.
 struct HarmonicRoot {
-  double omega = 0.0;  ///< of both signs; >= 0 at rest                        [rad/s]
+  double omega = 0.0;  ///< has both signs; >= 0 at rest                        [rad/s]
   Eigen::VectorXcd w;  ///< (2 n_local), polar components, ‖w‖ = 1
 };
 
-/// Numbers of roots in (0, σ) and in (-σ, 0); at rest both signs are one.
+/// Numbers of roots in (0, σ) and in (-σ, 0); at rest both are the same.
 struct RootCounts {
   int positive = 0, negative = 0;
 };
@@ -35,29 +35,29 @@ class HarmonicProblem {
 
   HarmonicProblem(const CyclicBody& body, double spin);
 
-  /// N/2 + 1, rounded down.
+  /// Number of harmonics: N/2 + 1, rounded down.
   [[nodiscard]] int n_harmonics() const noexcept { return harmonics_.count(); }
-  /// 2 n_local.
+  /// Size of the matrices: 2 n_local.
   [[nodiscard]] int size() const noexcept { return static_cast<int>(harmonics_.size()); }
-  /// All numbers are finite, so that there is something to solve.
+  /// Whether all numbers are finite, so that the problem can be solved.
   [[nodiscard]] bool finite();
-  /// From here on all is about harmonic `n`.
+  /// Selects harmonic `n` for all following calls.
   void choose(int n);
-  /// True where w and its conjugate, of harmonic N - n, are two motions: 0 < n < N/2.
+  /// Whether w and its conjugate, of harmonic N - n, are two different motions: 0 < n < N/2.
   [[nodiscard]] bool has_partner() const noexcept;
-  /// Unit vector of a rigid-body motion of a free body, which is left out below: of the rotation in
-  /// harmonic 0, of the translations in harmonic 1; else empty.
+  /// Unit vector of a rigid-body motion of a free body, which the functions below exclude: the
+  /// rotation in harmonic 0, the translations in harmonic 1; else empty.
   [[nodiscard]] const Eigen::VectorXcd& rigid() const noexcept { return rigid_; }
 
-  /// Negative eigenvalues of A'.
+  /// Number of negative eigenvalues of A'.
   int unstable() { return negative(0.0); }
-  /// Roots with |ω| < σ. @pre unstable() is 0, σ > 0
+  /// Numbers of roots with |ω| < σ. @pre unstable() is 0, σ > 0
   RootCounts count_below(double sigma);
   /// All roots with |ω| < σ. @pre unstable() is 0
   std::vector<HarmonicRoot> roots_below(double sigma, RootCounts counts);
-  /// A σ with at least `count` roots below it, or all.
+  /// A σ below which there are at least `count` roots, or all.
   double sigma_with(int count);
-  /// Largest dimension of a Krylov space so far.
+  /// Largest dimension of the Krylov spaces so far.
   [[nodiscard]] int dimension() const noexcept { return dimension_; }
 
   /// A' of harmonic 0 as a dense matrix, real.
@@ -76,7 +76,7 @@ class HarmonicProblem {
   int n_ = 0;
   int dimension_ = 0;
   Eigen::VectorXcd rigid_;
-  Matrix lower_;  ///< of A', as the operators use it
+  Matrix lower_;  ///< of A', in the form that the operators use
   Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor_;
 };
 

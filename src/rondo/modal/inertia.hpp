@@ -8,8 +8,8 @@
 
 namespace rondo::modal {
 
-/// @param lower its lower triangle. Nothing where a pivot is zero: the matrix is singular, or a
-/// leading part of it is.
+/// @param lower triangle of the matrix. Returns nothing if a pivot is zero: the matrix or a leading
+/// part of it is singular.
 template <class Scalar>
 std::optional<int> negative_eigenvalues(const Eigen::SparseMatrix<Scalar>& lower);
 

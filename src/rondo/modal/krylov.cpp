@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Index;
 
-/// Columns of a block: a double eigenvalue is found without more.
+/// Columns of a block; two are enough to find a double eigenvalue.
 constexpr Index block = 2;
-/// What is left of a vector after orthogonalisation, over what it was: less is round-off.
+/// Smallest relative length that orthogonalisation may leave of a vector; less is round-off.
 constexpr double dependent = 1e-12;
 
 double real(double x) {
@@ -38,7 +38,7 @@ void Krylov<Scalar>::reserve(Index columns) {
   projected_.rightCols(basis_.cols() - before).setZero();
 }
 
-/// Uniform in [-1, 1), by a counter through the finaliser of a hash (splitmix64).
+/// Random number in [-1, 1) from a counter and the finaliser of a hash (splitmix64).
 template <class Scalar>
 auto Krylov<Scalar>::random() -> Vector {
   Vector x(op_.size);
@@ -51,8 +51,8 @@ auto Krylov<Scalar>::random() -> Vector {
   return x;
 }
 
-/// Takes out of x its parts along the basis from column `first` on, and adds them to column `from`
-/// of the projected operator (-1: nowhere). Returns the norm of x after it.
+/// Removes from x its components along the basis from column `first` on and adds them to column
+/// `from` of the projected operator (-1: nowhere). Returns the norm of x afterwards.
 template <class Scalar>
 double Krylov<Scalar>::orthogonalise(Vector& x, Index first, Index from) {
   const auto columns = basis_.middleCols(first, all_ - first);
@@ -62,13 +62,13 @@ double Krylov<Scalar>::orthogonalise(Vector& x, Index first, Index from) {
   return std::sqrt(std::max(0.0, real(x.dot(op_.metric(x)))));
 }
 
-/// Adds x, made P-orthonormal, to the basis; its parts along the basis go into column `from` of the
-/// projected operator (-1: nowhere). False where nothing new is left of it.
+/// Makes x P-orthonormal and adds it to the basis; its components along the basis are added to
+/// column `from` of the projected operator (-1: nowhere). False if nothing new is left of x.
 template <class Scalar>
 bool Krylov<Scalar>::add(Vector x, Index from) {
   const double start = std::sqrt(std::max(0.0, real(x.dot(op_.metric(x)))));
-  // T x lies in the last blocks but for round-off and what widen() added; then one pass over all of
-  // the basis is enough, unless much of x went with it.
+  // Except for round-off and vectors added by widen(), T x lies in the last blocks. One pass over
+  // the whole basis is then enough, unless it removes much of x.
   double before = orthogonalise(x, std::max<Index>(0, all_ - 3 * block), from);
   double norm = orthogonalise(x, 0, from);
   for (int pass = 0; pass < 3 && norm < 0.7 * before; ++pass) {
@@ -88,7 +88,7 @@ void Krylov<Scalar>::widen() {
   if (all_ >= rank_) return;
   reserve(all_ + 1);
   for (int tries = 0; tries < 10; ++tries)
-    if (add(op_.apply(random()), -1)) return;  // T x holds nothing of what `apply` takes out
+    if (add(op_.apply(random()), -1)) return;  // T x contains nothing that `apply` removes
   rank_ = all_;
 }
 
@@ -135,7 +135,7 @@ template class Krylov<std::complex<double>>;
 
 namespace {
 
-/// True where the first `n` values from one end are beyond the limit, and found.
+/// Whether the first `n` values from one end are beyond the limit and have converged.
 bool found(const Ritz& r, double limit, Index n, bool above) {
   const Index m = r.value.size();
   if (n > m) return false;
@@ -161,7 +161,7 @@ Ritz eigenvalues_beyond(Krylov<Scalar>& space, double limit, Index above, Index 
     const bool all = found(r, limit, above, true) && found(r, limit, below, false);
     if (all || space.complete()) return r;
     if (m < 2.0 * widened) continue;
-    space.widen();  // longer than it should take: some may be multiple
+    space.widen();  // it takes longer than expected: some values may be multiple
     widened = m;
   }
 }

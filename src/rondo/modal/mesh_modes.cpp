@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Modes of any mesh, with sparse factors (docs/theory.md, 8.3 and 8.4).
+/// Modes of any mesh by sparse factorisations (docs/theory.md, 8.3 and 8.4).
 #include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,7 @@ using SparseMatrix = Eigen::SparseMatrix<double>;
 using Eigen::VectorXd;
 using Cholesky = Eigen::CholmodDecomposition<SparseMatrix, Eigen::Lower>;
 
-/// The equation on the free nodes, numbered 2·(place in `free`) + component.
+/// The equation on the free nodes; an unknown has the number 2·(index in `free`) + component.
 struct ReducedBody {
   std::vector<int> free;
   SparseMatrix k;  ///< K' = K - s² M
@@ -28,7 +28,7 @@ struct ReducedBody {
   Eigen::MatrixXd rigid;  ///< M-orthonormal rigid-body motions of the free bodies
 };
 
-/// Three columns for each body, M-orthonormal: along x, along y, about the center of mass.
+/// Three M-orthonormal columns for each body: along x, along y, about the center of mass.
 Eigen::MatrixXd rigid_motions(const MeshBody& body, const ReducedBody& r) {
   const std::vector<int> bodies = free_bodies(body.mesh);
   const mesh::Bodies all = mesh::find_bodies(body.mesh);
@@ -74,7 +74,7 @@ ReducedBody reduce(const MeshBody& body, double spin) {
   return r;
 }
 
-/// J x of each node.
+/// J x at each node.
 VectorXd turned(const VectorXd& x) {
   VectorXd y(x.size());
   for (Index a = 0; a < x.size(); a += 2) {
@@ -122,8 +122,8 @@ Operator<double> in_spin(const ReducedBody& r, const Cholesky& factor) {
   return op;
 }
 
-/// Roots with 0 < ω < σ, by the negative eigenvalues of K' - σ²M + 2iσsMJ less the rigid-body
-/// motions. Nothing where the factor breaks down.
+/// Number of roots with 0 < ω < σ: negative eigenvalues of K' - σ²M + 2iσsMJ without those of the
+/// rigid-body motions. Nothing if the factorisation fails.
 std::optional<int> count_below(const ReducedBody& r, double sigma) {
   SparseMatrix shifted = r.k;
   for (Index i = 0; i < shifted.rows(); ++i) shifted.coeffRef(i, i) -= sigma * sigma * r.mass[i];
@@ -140,7 +140,7 @@ std::optional<int> count_below(const ReducedBody& r, double sigma) {
   return found;
 }
 
-/// What the eigenvalues are sought with.
+/// The operator and the factor with which the eigenvalues are sought.
 struct Search {
   double shift = 0.0;  ///< τ
   [[nodiscard]] double omega(double mu, bool rest) const {
@@ -151,14 +151,14 @@ struct Search {
   }
 };
 
-/// Number of values from the first on after which comes a gap, at least `count`.
+/// Number of values, at least `count`, from the first one up to a gap.
 Index up_to_gap(const Ritz& r, Index count) {
   while (count < r.value.size() && r.value[count] > r.value[count - 1] * (1.0 - 1e-6)) ++count;
   return count;
 }
 
-/// The lowest `count` with what else is as low as the last; then as many as the count of all below
-/// says.
+/// Finds the lowest `count` and any others equal to the last; then as many as the count of all
+/// roots below that requires.
 Ritz find(const ReducedBody& r, const Search& search, Krylov<double>& space, Index count,
           std::vector<double>& omegas, bool& counted) {
   const bool rest = r.spin == 0.0;
@@ -196,9 +196,9 @@ Mode mode_of(const ReducedBody& r, std::span<const double> mass, const Eigen::Ve
   return mode;
 }
 
-/// About the square of the lowest frequency: less by as much as an element is smaller than the
-/// body. Of the softest part: by a steel core the shift would be far above all frequencies of the
-/// rubber on it, and their μ not apart. It stays above the rounding of the factor.
+/// Rough lower estimate of the squared lowest frequency, smaller by the ratio of element to body.
+/// It is based on the softest part: with that of a steel core, the shift would be far above all
+/// frequencies of rubber on it, and their μ would be too close. Rounding of the factor limits it.
 double low_eigenvalue(const ReducedBody& r) {
   constexpr double rounding = 1e-13;
   const VectorXd of_node = r.k.diagonal().cwiseQuotient(r.mass);
@@ -250,7 +250,7 @@ Modes mesh_modes(const MeshBody& body, double spin, int count) {
   const Ritz ritz = find(r, search, space, std::min<Index>(count, most), omegas, out.counted);
   for (std::size_t i = 0; i < omegas.size(); ++i) {
     const Eigen::VectorXcd x = space.vector(ritz, static_cast<Index>(i));
-    // Once more through T: less of what is far off.
+    // One more application of T reduces the parts of distant eigenvectors.
     const Eigen::VectorXcd better = op.apply(x.real()).cast<std::complex<double>>() +
                                     std::complex<double>(0.0, 1.0) * op.apply(x.imag());
     Mode mode = mode_of(r, body.mass, better.head(r.k.rows()));

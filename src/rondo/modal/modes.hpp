@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Frequencies and shapes of a body at rest or in constant spin, without damping
-/// (docs/theory.md, section 8): u = φ e^{iωt} in the turning frame with
+/// @file  Frequencies and shapes of an undamped body at rest or in constant spin
+/// (docs/theory.md, section 8): u = φ e^{iωt} in the rotating frame with
 ///   (K' - ω² M + 2iωs M J) φ = 0,    K' = K - s² M                                        (8.1)
-/// where K may hold the stiffening by the stress of the spin.
+/// where K may include the stiffening by the stress of the spin.
 #pragma once
 #include <span>
 #include <vector>
@@ -14,31 +14,31 @@
 
 namespace rondo::modal {
 
-/// How a mode goes round in the turning frame; forward: in the sense of the spin.
+/// How a mode travels in the rotating frame; forward: in the sense of the spin.
 enum class Wave { unknown, standing, forward, backward, rigid };
 
 /// The motion Re[(real + i imaginary) e^{(γ + iω) t}], ω >= 0.
 struct Mode {
-  double omega = 0.0;   ///< ω in the turning frame [rad/s]
-  double growth = 0.0;  ///< γ: 0 but for the rotation of a spinning free disk (8.5) [1/s]
+  double omega = 0.0;   ///< ω in the rotating frame [rad/s]
+  double growth = 0.0;  ///< γ: 0 except for the rotation of a spinning free disk (8.5) [1/s]
   int diameters = -1;   ///< n: harmonic of a body of equal sectors; -1: unknown
   Wave wave = Wave::unknown;
   std::vector<Vec2> real, imaginary;  ///< (n) φ, φᴴ M φ = 1, largest component real [(kg/m)^(-1/2)]
 };
 
 struct Modes {
-  /// Rigid-body motions first, all of them; then the lowest others, ascending.
+  /// All rigid-body motions first; then the lowest other modes, ascending.
   std::vector<Mode> modes;
-  /// Negative eigenvalues of K': the spin softens more than the body is stiff, and there are no
-  /// modes. (Rigid-body motions of a free disk do not count.)
+  /// Number of negative eigenvalues of K': the softening by the spin exceeds the stiffness, and
+  /// there are no modes. (Rigid-body motions of a free disk do not count.)
   int unstable = 0;
-  /// Whether a count of the eigenvalues below the last one has shown that none is missing (8.4).
+  /// Whether a count of the eigenvalues below the last one has proven that none is missing (8.4).
   bool counted = false;
-  /// Largest dimension of the spaces in which the modes were sought.
+  /// Largest dimension of the Krylov spaces that were used.
   int dimension = 0;
 };
 
-/// A body of N equal sectors, clamped at its inner boundary, or free (no node is clamped).
+/// A body of N equal sectors, clamped at its inner boundary or free (no clamped node).
 struct CyclicBody {
   const fem::SectorStiffness& stiffness;
   std::span<const double> mass;     ///< (n) [kg/m]
@@ -49,29 +49,29 @@ struct CyclicBody {
   }
 };
 
-/// The `count` lowest modes besides the rigid-body motions, harmonic by harmonic; one more where a
-/// pair of equal frequencies at rest would be cut. @param spin s [rad/s], counter-clockwise
+/// The `count` lowest modes in addition to the rigid-body motions, harmonic by harmonic; one more
+/// if a pair of equal frequencies at rest would be split. @param spin s [rad/s], counter-clockwise
 [[nodiscard]] Modes cyclic_modes(const CyclicBody& body, double spin, int count);
 
-/// Degrees of freedom of a sector up to which a free disk may spin: harmonic 0 is then solved as a
-/// dense problem without symmetry (8.5).
+/// Largest number of degrees of freedom of a sector with which a free disk may spin: harmonic 0 is
+/// then solved as a dense unsymmetric problem (8.5).
 inline constexpr std::size_t most_dofs_of_free_sector = 600;
 
-/// Any mesh, some of its bodies clamped.
+/// A body on any mesh; some parts of it may be clamped.
 struct MeshBody {
   const mesh::Mesh& mesh;
   const fem::BlockCsr& stiffness;
   std::span<const double> mass;  ///< (n) [kg/m]
 };
 
-/// Bodies of which no node is clamped: each has three rigid-body motions.
+/// Bodies without a clamped node: each has three rigid-body motions.
 std::vector<int> free_bodies(const mesh::Mesh& mesh);
 
-/// The same on any mesh; waves are not told apart. @pre spin 0 where there are free bodies
+/// The modes on any mesh; the direction of waves is not determined. @pre spin 0 if a body is free
 [[nodiscard]] Modes mesh_modes(const MeshBody& body, double spin, int count);
 
-/// Degrees of freedom up to which mesh_modes() counts (8.4): the factor of the count is complex and
-/// not blocked.
+/// Largest number of degrees of freedom for which mesh_modes() counts (8.4): the factor for the
+/// count is complex and not blocked.
 inline constexpr std::size_t most_dofs_counted = 400000;
 
 }  // namespace rondo::modal

@@ -19,7 +19,7 @@ double squared(const Field& f) {
   return sum;
 }
 
-/// The products of one body: K u, and the blocks on the diagonal alone.
+/// The products with the matrices of a body: K u, and its block diagonal alone.
 struct Products {
   Field k_real, k_imaginary, d_real, d_imaginary;
 };

@@ -10,7 +10,7 @@ namespace {
 
 using StdComplex = std::complex<double>;
 
-/// (n) φ = M^-½ w e^{inφ_j} in each sector j, turned back into Cartesian components.
+/// Sets (n) φ = M^-½ w e^{inφ_j} in each sector j, turned back into Cartesian components.
 void spread(const CyclicBody& body, int n, const Eigen::VectorXcd& w, Mode& mode) {
   const fem::SectorStiffness& k = body.stiffness;
   mode.real.assign(body.mass.size(), Vec2{});
@@ -47,7 +47,7 @@ void normalise(Mode& mode, std::span<const double> mass) {
     const Vec2 r = mode.real[i], m = mode.imaginary[i];
     norm += mass[i] * (dot(r, r) + dot(m, m));
     for (const rondo::Complex z : {rondo::Complex{r.x, m.x}, rondo::Complex{r.y, m.y}}) {
-      // The first of those that are equal but for round-off, as all round a wave.
+      // Takes the first of components that are equal except for round-off, as around a wave.
       if (norm_squared(z) <= largest * (1.0 + 1e-6)) continue;
       largest = norm_squared(z);
       phase = z;

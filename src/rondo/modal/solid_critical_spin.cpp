@@ -13,8 +13,8 @@ namespace {
 
 using Matrix = fem::Harmonics::Matrix;
 
-/// A(n) - s²[(n² + 1)P + n²(1 - P) - n G], P taking the components in the plane of the wheel, is
-/// not positive definite: a wave of n stands still at s or below.
+/// Whether A(n) - s²[(n² + 1)P + n²(1 - P) - n G], where P selects the components in the plane of
+/// the wheel, is not positive definite: a wave of n then stands still at s or below.
 bool stands_still(fem::Harmonics& elastic, int n, double spin) {
   const double squared = spin * spin, waves = n;
   const double axial = -squared * waves * waves;

@@ -36,8 +36,8 @@ void solve(const ContactStep& s, Complex delassus, std::span<ActiveContact> cont
   report.pairs_not_converged += solution.converged ? 0 : 1;
 }
 
-/// v⁺ = v_free + Σ Rᵀ n r/(m a); a node that sticks gets the velocity that w = (-bounce, 0) means,
-/// so that sticking is exact (4.6).
+/// v⁺ = v_free + Σ Rᵀ n r/(m a); a sticking node gets the velocity that follows from w = (-bounce,
+/// 0), so that sticking is exact (4.6).
 Vec2 corrected_velocity(const ContactStep& s, const ContactNode& node, Vec2 drive,
                         std::span<const ActiveContact> contacts) noexcept {
   Vec2 impulse;

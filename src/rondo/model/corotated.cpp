@@ -18,7 +18,7 @@ void for_nodes(const FreeBody& body, Work&& work) noexcept {
   for (const int node : body.nodes) work(static_cast<std::size_t>(node));
 }
 
-/// Rᵀ(u - shift) + (Rᵀ - 1)(X - X_c): small differences of small numbers.
+/// Rᵀ(u - shift) + (Rᵀ - 1)(X - X_c): differences of small numbers only.
 Vec2 elastic_of(const Model& model, const FreeBody& body, const Pose& pose, std::size_t k,
                 Vec2 u) noexcept {
   const double c = pose.rotation.re, s = pose.rotation.im;
@@ -27,7 +27,7 @@ Vec2 elastic_of(const Model& model, const FreeBody& body, const Pose& pose, std:
          back_minus_one * arm_of(model, body, k);
 }
 
-/// Of one body (9.5): R p less what the turning of the frame with the nodes takes away.
+/// Gradient of one body (9.5): R p minus the part due to the rotation of the frame with the nodes.
 void body_gradient(const Model& model, const FreeBody& body, const Pose& pose,
                    std::span<const Vec2> elastic, std::span<const Vec2> product,
                    std::span<Vec2> gradient) noexcept {

@@ -13,7 +13,7 @@ namespace {
 
 using fem::Hyperelasticity;
 
-/// Rotations are no strain of rubber, but of linear elements, and β would damp them.
+/// Rotations would cause strain in linear elements, and β would damp them.
 void demand_rubber_alone(const Model& model, const Hyperelasticity& body) {
   if (model.free_bodies.empty()) return;
   RONDO_DEMAND(model.stiffness_damping == 0.0, model.stiffness_damping);
@@ -40,7 +40,7 @@ class Hyperelastic final : public InternalForce {
     report_.internal_work = report_.stored_energy = work_.value();
   }
 
-  /// Branches go half a step before the stress and half a step after it, with the strain of u.
+  /// Branches relax half a step before the stress and half a step after it, at the strain of u.
   void evaluate(std::span<const Vec2> u) noexcept override {
     std::swap(force_, before_);
     relax(u);
@@ -65,7 +65,7 @@ class Hyperelastic final : public InternalForce {
 
   void save(SavedState& saved) const override {
     saved.force = saved.gradient = force_;
-    saved.energy.assign(poses_.size(), 0.0);  // free bodies have none apart
+    saved.energy.assign(poses_.size(), 0.0);  // free bodies have no separate energies
     saved.poses = poses_;
     saved.internal_work = {work_.sum(), work_.correction(), loss_.sum(), loss_.correction()};
     saved.branches.clear();
@@ -92,7 +92,7 @@ class Hyperelastic final : public InternalForce {
     loss_.add(body_->relax(u, 0.5 * model_.dt, histories_, pass_, model_.threads));
   }
 
-  /// A_n + ½ f_n·Δu half a step before u_{n+1}, and with ½ f_{n+1}·Δu more A_{n+1}.
+  /// A_n + ½ f_n·Δu half a step before u_{n+1}; adding ½ f_{n+1}·Δu gives A_{n+1}.
   void add_work(std::span<const Vec2> u) noexcept {
     double before = 0.0, now = 0.0;
     for_free_nodes(model_, [&](std::size_t k) {
@@ -111,13 +111,13 @@ class Hyperelastic final : public InternalForce {
   std::vector<Hyperelasticity::History> histories_;  ///< half a step after u
   std::vector<Vec2> u_;                              ///< (n)                            [m]
   std::vector<Vec2> force_, before_;                 ///< (n) f_{n+1}, f_n               [N/m]
-  CompensatedSum work_;                              ///< A, from U(u_0) on              [J/m]
+  CompensatedSum work_;                              ///< A, starting from U(u_0)              [J/m]
   CompensatedSum loss_;                              ///< of the branches                [J/m]
   double half_step_energy_ = 0.0;                    ///< [J/m]
   MaterialReport report_;
 };
 
-/// K of the cells that are linear.
+/// K of the linear cells.
 fem::BlockCsr linear_stiffness(const mesh::Mesh& mesh, std::span<const fem::Material> materials) {
   std::vector<char> linear;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e)
@@ -136,7 +136,7 @@ InternalForceMaker hyperelastic_maker(std::shared_ptr<const Hyperelasticity> bod
 
 RubberPart rubber_part(const mesh::Mesh& mesh, std::span<const fem::Material> materials) {
   RubberPart part;
-  std::vector<int> place;  // of each material
+  std::vector<int> place;  // index for each material
   for (const fem::Material& m : materials) {
     place.push_back(m.rubber ? static_cast<int>(part.materials.size()) : -1);
     if (m.rubber) part.materials.push_back(*m.rubber);

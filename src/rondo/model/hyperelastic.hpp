@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Rubber at finite strain for the general step (docs/rubber.md, sections 2 and 3): one
-/// readable pass a term, the reference that the fused step is held to. What is held moves in the
-/// turning frame; what nothing holds in the fixed one, without a frame of its own: rotations are no
-/// strain.
+/// readable pass per term, the reference for the fused step. Constrained bodies move in the
+/// rotating frame, unconstrained ones in the fixed frame without a frame of their own, because
+/// rotations cause no strain.
 #pragma once
 #include <memory>
 #include <span>
@@ -12,13 +12,13 @@
 
 namespace rondo::dynamics {
 
-/// For Model::internal_force. Branches are relaxed at u_0. The strain energy of the ledger is what
-/// was done against the forces, from the stored energy at u_0 on.
-/// @pre of the force: a body that nothing holds is all rubber, and then β = 0
+/// Makes Model::internal_force. Branches are relaxed at u_0. The strain energy in the ledger is the
+/// stored energy at u_0 plus the work done against the forces since then.
+/// @pre of the force: an unconstrained body is all rubber, and then β = 0
 [[nodiscard]] InternalForceMaker hyperelastic_maker(
     std::shared_ptr<const fem::Hyperelasticity> body);
 
-/// For Model::rubber: what the fused step needs of the same. @pre all cells of rubber are
+/// Makes Model::rubber: the data that the fused step needs of it. @pre all cells of rubber are
 /// quadrilaterals
 [[nodiscard]] RubberPart rubber_part(const mesh::Mesh& mesh,
                                      std::span<const fem::Material> materials);

@@ -16,7 +16,7 @@ void demand_size(std::size_t n, const SavedState& saved) {
                saved.gradient.size());
 }
 
-/// K u in the turning frame.
+/// K u in the rotating frame.
 class AssembledStiffness final : public InternalForce {
  public:
   AssembledStiffness(const Model& model, std::span<const Vec2> u0)
@@ -51,8 +51,8 @@ class AssembledStiffness final : public InternalForce {
   std::vector<Vec2> force_, before_;  ///< (n) K u_{n+1}, K u_n                        [N/m]
 };
 
-/// Bodies that nothing holds beside such that are held: small strain in the frame of each body's
-/// mean rotation (corotated.hpp).
+/// Free bodies, possibly beside clamped ones: small strain in the frame of each body's mean
+/// rotation (corotated.hpp).
 class Corotated final : public InternalForce {
  public:
   Corotated(const Model& model, std::span<const Vec2> u0, std::span<const Pose> poses)
@@ -80,7 +80,7 @@ class Corotated final : public InternalForce {
     find_energies();
   }
   [[nodiscard]] std::span<const Vec2> gradient() const noexcept override { return gradient_; }
-  /// ½ u_{n+1}ᵀ K u_n; of free bodies the same in terms of energies and their derivatives (9.7).
+  /// ½ u_{n+1}ᵀ K u_n; for free bodies the equivalent by energies and their derivatives (9.7).
   [[nodiscard]] double half_step_energy(std::span<const Vec2> u,
                                         std::span<const Vec2> v) const noexcept override {
     double strain = 0.0;
@@ -94,7 +94,7 @@ class Corotated final : public InternalForce {
       strain += 0.5 * (energy_[b] + energy_before_[b]);
     return strain;
   }
-  /// β K ė, turned and balanced like the elastic force, so that it has no moment either (9.6).
+  /// β K ė, rotated and balanced like the elastic force, so that it has no moment either (9.6).
   void damping(std::span<Vec2> out) noexcept override {
     const double rate = model_.stiffness_damping / model_.dt;
     for_free_nodes(model_, [&](std::size_t k) { before_[k] = rate * (product_[k] - before_[k]); });
@@ -142,7 +142,7 @@ class Corotated final : public InternalForce {
 std::unique_ptr<InternalForce> make_internal_force(const Model& model, std::span<const Vec2> u0,
                                                    std::span<const Pose> poses) {
   if (model.internal_force) return model.internal_force(model, u0, poses);
-  RONDO_DEMAND(!model.rubber);  // which has one of its own
+  RONDO_DEMAND(!model.rubber);  // it has its own internal force
   RONDO_DEMAND(model.stiffness.row_start.size() == model.n_nodes() + 1, model.n_nodes());
   if (model.free_bodies.empty()) return std::make_unique<AssembledStiffness>(model, u0);
   return std::make_unique<Corotated>(model, u0, poses);

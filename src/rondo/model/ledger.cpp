@@ -7,13 +7,13 @@
 namespace rondo::dynamics {
 namespace {
 
-/// A work and how it counts in the balance: +1 is done on the body, -1 lost; 0: part of another.
+/// A work and its sign in the balance: +1 done on the body, -1 lost; 0: part of another one.
 struct Term {
   double Works::*work;
   double sign;
 };
 
-/// The scheme's comes last: what a run exchanges by itself is what stands before it.
+/// That of the scheme comes last; the works before it are what a run exchanges by itself.
 constexpr std::array<Term, Ledger::n_works> terms{{{&Works::frame, 1.0},
                                                    {&Works::contact, 1.0},
                                                    {&Works::load, 1.0},

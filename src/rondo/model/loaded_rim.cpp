@@ -9,15 +9,15 @@
 namespace rondo::dynamics {
 namespace {
 
-/// v towards 0 by `most`, not beyond it.
+/// Reduces |v| by `most`, but not below 0.
 double slowed(double v, double most) noexcept {
   return v > most ? v - most : v < -most ? v + most : 0.0;
 }
 
-/// One direction of the center.
+/// One direction of motion of the center.
 struct Line {
   bool free;
-  double mass, load, weight, elastic;  ///< [kg/m]; F, M g, what the body does [N/m]
+  double mass, load, weight, elastic;  ///< [kg/m]; F, M g, force of the body [N/m]
   RimSupport support;
   double place, before;  ///< c_{n+1} [m]; v⁻ [m/s]
 };
@@ -26,7 +26,7 @@ struct Moved {
   double velocity, reaction;
 };
 
-/// M (v⁺ - v⁻) = h [F + M g + q - k (c - c_ref) - k_d (v⁺ + v⁻)/2]; of a held one its reaction.
+/// M (v⁺ - v⁻) = h [F + M g + q - k (c - c_ref) - k_d (v⁺ + v⁻)/2]; if prescribed, its reaction.
 Moved moved(const Line& l, double held, double h) noexcept {
   const double force =
       l.load + l.weight + l.elastic - l.support.stiffness * (l.place - l.support.at);
@@ -90,7 +90,7 @@ void LoadedRim::advance(const RimForce& q, double h) noexcept {
   report_.force = {to_x.reaction, to_y.reaction};
 }
 
-/// I (s⁺ - s⁻) = h [T + Σ y × q]; then the brake takes from |s⁺|, not below 0.
+/// I (s⁺ - s⁻) = h [T + Σ y × q]; then the brake reduces |s⁺|, but not below 0.
 void LoadedRim::advance_spin(double moment, double h) noexcept {
   const double t = frame_.time, driving = -rim_.torque.at(t), inertia = rim_.inertia;
   double braking = 0.0, reaction = 0.0;
@@ -116,7 +116,7 @@ void LoadedRim::start(const RimForce& q) noexcept {
   advance(q, 0.5 * model_.dt);
 }
 
-/// R turns by increments, whose rounding does not grow with θ, and is kept of length 1.
+/// R is updated by increments, whose rounding does not grow with θ, and normalised.
 void LoadedRim::move() noexcept {
   const double dt = model_.dt;
   ++step_;
@@ -191,7 +191,7 @@ RimForce pressure_on_rim(const Model& model, std::span<const Vec2> load) noexcep
   return sum;
 }
 
-/// y₂ = e^{-iδ}(y₁ + Δt R̄(V - ċ)), less y₁.
+/// y₂ = e^{-iδ}(y₁ + Δt R̄(V - ċ)), minus y₁.
 Vec2 travel_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 velocity) noexcept {
   const Vec2 way = dt * (velocity - conj(rim.frame().rotation) * rim.velocity());
   return way + conj(rim.turn()) * (arm + way);

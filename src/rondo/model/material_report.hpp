@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Energies of rubber, beside those of the ledger.
+/// @file  Energies of rubber that are reported in addition to those of the ledger.
 #pragma once
 
 namespace rondo::dynamics {
 
-/// Of rubber at t_{n+1}, since the start (docs/rubber.md, section 3).
+/// Energies of rubber at t_{n+1}, accumulated since the start (docs/rubber.md, section 3).
 struct MaterialReport {
-  double internal_work = 0.0;        ///< A: what was done against the internal forces     [J/m]
-  double stored_energy = 0.0;        ///< U of the elements, branches included             [J/m]
+  double internal_work = 0.0;        ///< A: work done against the internal forces           [J/m]
+  double stored_energy = 0.0;        ///< U of the elements, including branches              [J/m]
   double dissipation_viscous = 0.0;  ///< of the branches                                 [J/m]
   double least_volume = 1.0;         ///< smallest det F; <= 0: an element is inverted     [-]
 
-  /// What the force is not the derivative of: A - ΔU - D, of second order in Δt        [J/m]
+  /// Error of the integration, A - ΔU - D, of second order in Δt                         [J/m]
   [[nodiscard]] double integration() const noexcept {
     return internal_work - stored_energy - dissipation_viscous;
   }

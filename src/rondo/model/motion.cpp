@@ -20,7 +20,7 @@ std::size_t points_until(const Points& points, double t) noexcept {
   return static_cast<std::size_t>(after - points.begin());
 }
 
-/// piece(from, length) for each part of [from, from + length] that holds no knot in its inside.
+/// Calls piece(from, length) for each part of [from, from + length] without a knot inside.
 template <class Piece>
 void for_pieces(const Points& points, double from, double length, Piece&& piece) noexcept {
   const double sense = length < 0.0 ? -1.0 : 1.0;
@@ -63,12 +63,12 @@ double Table::slope(double t) const noexcept {
   return (points_[k][1] - points_[k - 1][1]) / (points_[k][0] - points_[k - 1][0]);
 }
 
-/// ∫ over [begin, begin + length] or back from there, without a knot inside.
+/// ∫ over [begin, begin + length], or backwards from there, without a knot inside.
 double Table::piece(double begin, double length) const noexcept {
   return length * (at(begin) + 0.5 * slope(begin) * std::abs(length));
 }
 
-/// The sum of integral(), piece by piece, but for those that are summed already: the same bits.
+/// integral() from 0, piece by piece, but from stored sums: the same bits.
 double Table::integral_from_start(double end) const noexcept {
   const auto knot = std::lower_bound(points_.begin(), points_.end(), end,
                                      [](const auto& p, double x) { return p[0] < x; });
@@ -98,7 +98,7 @@ double Table::largest() const noexcept {
 
 namespace {
 
-/// ∫ of a table that is prolonged before t = 0 by its first slope, from `from` < 0.
+/// ∫ of a table that is extended before t = 0 with its first slope, from `from` < 0.
 double prolonged_integral(const Table& table, double from, double length) noexcept {
   return length * (table.at(0.0) + (from + 0.5 * length) * table.slope(0.0));
 }
@@ -140,8 +140,8 @@ Complex wave_integral(double a, double b, double c, double d, double length) noe
   return length * (rotation(c) * (a * mean + b * length * moment));
 }
 
-/// ∫ V e^{iα} over [from, from + length]: real part along t1, imaginary part along t2. Exact: on
-/// each piece speed and slip angle are linear.
+/// ∫ V e^{iα} over [from, from + length]: real part along t1, imaginary part along t2. Exact,
+/// because speed and slip angle are linear on each piece.
 Complex travel(const Table& speed, const Table& angle, double from, double length) noexcept {
   Complex sum;
   for_pieces(speed.points(), from, length, [&](double begin, double part) {
@@ -153,7 +153,7 @@ Complex travel(const Table& speed, const Table& angle, double from, double lengt
   return sum;
 }
 
-/// The same before t = 0, from `from` < 0: speed and slip angle are prolonged.
+/// The same for `from` < 0: speed and slip angle are extended before t = 0.
 Complex prolonged_travel(const Table& speed, const Table& angle, double from,
                          double length) noexcept {
   const double v = speed.slope(0.0), a = angle.slope(0.0);
@@ -179,7 +179,7 @@ Vec3 Motion::advance(double from, double length) const noexcept {
 
 namespace {
 
-/// At t, a step after `before`.
+/// The frame at t, one step after `before`.
 FrameStep frame_at(const Motion& motion, double before, double t, double dt) noexcept {
   FrameStep f;
   f.time = t;

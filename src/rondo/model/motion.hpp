@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Motion of the rim: angle and center, integrated exactly (docs/theory.md, section 1).
+/// @file  Motion of the rim: its angle and center, integrated exactly (docs/theory.md, section 1).
 #pragma once
 #include <array>
 #include <cmath>
@@ -18,10 +18,10 @@ class Table {
   explicit Table(std::vector<std::array<double, 2>> points);
 
   [[nodiscard]] double at(double t) const noexcept;
-  /// Slope just after t: piecewise constant.
+  /// Slope just after t; it is piecewise constant.
   [[nodiscard]] double slope(double t) const noexcept;
-  /// ∫ over [from, from + length], exact: the same at every step where the table is constant. From
-  /// t = 0 in a time that does not grow with the number of points.
+  /// Exact ∫ over [from, from + length], bitwise the same at every step while the table is
+  /// constant. From t = 0 on, its cost does not grow with the number of points.
   [[nodiscard]] double integral(double from, double length) const noexcept;
   /// Change over [from, from + length], without cancellation of the value.
   [[nodiscard]] double change(double from, double length) const noexcept;
@@ -36,7 +36,7 @@ class Table {
   [[nodiscard]] double integral_from_start(double end) const noexcept;
 
   std::vector<std::array<double, 2>> points_{{{0.0, 0.0}}};
-  std::vector<double> from_start_{0.0};  ///< (points) ∫ from 0 to each that lies behind 0
+  std::vector<double> from_start_{0.0};  ///< (points) ∫ from 0 to each point after t = 0
 };
 
 struct Motion {
@@ -46,34 +46,34 @@ struct Motion {
   Table gravity;           ///< downwards, tilted by the slope                          [m/s2]
   double start_x = 0.0;    ///< x of the center at t = 0                               [m]
   double slope = 0.0;      ///< of the ground, by which gravity is tilted: > 0 descends to +x [rad]
-  // Of a wheel in three dimensions (docs/wheel3d.md): the axes of the ground are t1 = e_x, its
-  // normal n = (0, cos γ, sin γ) and t2 = t1 × n; x and y above are along t1 and n.
-  Table slip_angle;     ///< α: the center goes along cos α t1 + sin α t2       [rad]
+  // The members below are of a wheel in three dimensions (docs/wheel3d.md). The axes of the ground
+  // are t1 = e_x, its normal n = (0, cos γ, sin γ) and t2 = t1 × n; x, y above are along t1, n.
+  Table slip_angle;     ///< α: the center moves along cos α t1 + sin α t2   [rad]
   double camber = 0.0;  ///< γ, > 0 leans the top of the wheel to -t2          [rad]
 
   /// g, fixed frame [m/s2]
   [[nodiscard]] Vec2 gravity_at(double t) const noexcept;
   [[nodiscard]] double angle(double t) const noexcept { return turn(0.0, t); }
-  /// θ(from + length) - θ(from); before t = 0 as for the center                        [rad]
+  /// θ(from + length) - θ(from); for times before t = 0 see advance()                  [rad]
   [[nodiscard]] double turn(double from, double length) const noexcept;
-  /// (t1, n, t2) of ground_frame.hpp; x, y, 0 in the plane [m]
+  /// (t1, n, t2) of ground_frame.hpp; in the plane x, y, 0 [m]
   [[nodiscard]] Vec3 center(double t) const noexcept {
     const Vec3 way = advance(0.0, t);
     return {start_x + way.x, height.at(t), way.z};
   }
-  /// Speed of the center along t1: the whole of it without a slip angle [m/s]
+  /// Speed of the center along t1, which is its whole speed without a slip angle [m/s]
   [[nodiscard]] double ahead(double t) const noexcept {
     return speed.at(t) * std::cos(slip_angle.at(t));
   }
-  /// c(from + length) - c(from), without cancellation of the position. Before t = 0 the center is
-  /// taken to have moved with its initial velocity and acceleration: the start is no kink.
+  /// c(from + length) - c(from), without cancellation of the position. Before t = 0 the center
+  /// moves with its initial velocity and acceleration, so that the start causes no kink.
   [[nodiscard]] Vec3 advance(double from, double length) const noexcept;
 };
 
-/// (ω R - V) / max(|V|, |ω R|), of the speeds of rim and center; 0 where both vanish.
+/// (ω R - V) / max(|V|, |ω R|), from the speeds of rim and center; 0 if both vanish.
 double slip_ratio(double rim_speed, double speed) noexcept;
 
-/// All that a step at t_{n+1} needs to know of the frame.
+/// All data of the frame that a step at t_{n+1} needs.
 struct FrameStep {
   double time = 0.0;       ///< t_{n+1}                                               [s]
   double spin = 0.0;       ///< s = θ̇, counter-clockwise                              [rad/s]
@@ -83,21 +83,21 @@ struct FrameStep {
   double turn_before = 0.0;  ///< θ_{n+1} - θ_n                                         [rad]
   Complex rotation;          ///< e^{iθ_{n+1}}
   double slip_angle = 0.0;   ///< α(t_{n+1}); 0 in the plane                            [rad]
-  // (t1, n, t2) of ground_frame.hpp; x, y, 0 in the plane.
+  // Vectors in (t1, n, t2) of ground_frame.hpp; in the plane x, y, 0.
   Vec3 center;          ///< c_{n+1}                                                    [m]
   Vec3 advance;         ///< c_{n+2} - c_{n+1}                                          [m]
   Vec3 advance_before;  ///< c_{n+1} - c_n                                              [m]
   Vec3 pull;            ///< Rᵀ (c̈ - g) in the turning frame, and along the axle        [m/s2]
 };
 
-/// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): acceleration of the frame at a place (3.1). @param arm X + u [m]
+/// (ṡJ - s²)(X + u) + Rᵀ(c̈ - g): frame acceleration at a point (3.1). @param arm X + u [m]
 constexpr Vec2 frame_acceleration(const FrameStep& f, Vec2 arm) noexcept {
   return Complex{-f.spin * f.spin, f.spin_rate} * arm + f.pull.plane();
 }
 
 /// The frame at t = n dt.
 FrameStep frame_step(const Motion& motion, long long n, double dt) noexcept;
-/// The frame at t = (n - 1/2) dt, in the middle of the n-th step.
+/// The frame at t = (n - 1/2) dt, in the middle of step n.
 FrameStep middle_frame_step(const Motion& motion, long long n, double dt) noexcept;
 
 }  // namespace rondo::dynamics

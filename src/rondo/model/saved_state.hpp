@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  All that an integrator carries from one step to the next, to the last bit: what it goes
-/// on with after a restart. In the integrator's own components (those of the cyclic one are polar)
-/// and its own moments, so that nothing is computed anew; what it does not carry is empty.
+/// @file  All data that an integrator carries from one step to the next, bit for bit, so that a run
+/// can resume from them. Components and times are the integrator's own (those of the cyclic one are
+/// polar), so that nothing is computed anew; unused fields are empty.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,22 +14,22 @@
 namespace rondo::dynamics {
 
 struct SavedState {
-  long long step = 0;  ///< the last step made
-  Field u;             ///< (n) displacement                                  [m]
-  Field v;             ///< (n) velocity                                      [m/s]
-  Field force;         ///< (n) K u; with stiffness damping, or free bodies          [N/m], [N]
-  Field u_before;      ///< (n) u a step before; with a loaded rim                          [m]
+  long long step = 0;          ///< the last step made
+  Field u;                     ///< (n) displacement                                  [m]
+  Field v;                     ///< (n) velocity                                      [m/s]
+  Field force;                 ///< (n) K u; with stiffness damping or free bodies        [N/m], [N]
+  Field u_before;              ///< (n) u one step before; with a loaded rim                    [m]
   std::vector<Vec2> gradient;  ///< (n) derivative of the energy, general model       [N/m]
   std::vector<double> energy;  ///< (free_bodies)                                     [J/m]
   std::vector<Pose> poses;     ///< (free_bodies)
-  /// By contact, ascending: coupled contacts start from the impulses of the step before [N·s/m].
+  /// By contact, ascending: coupled contacts start from the impulses of the previous step [N·s/m].
   std::vector<std::pair<std::uint64_t, Vec2>> impulses;
   std::vector<double> branches;       ///< of rubber: C_i of element and branch, xx, yy, xy
   std::vector<double> internal_work;  ///< of rubber (rubber_work.hpp, hyperelastic.hpp)
-  std::vector<double> rim;            ///< what a loaded rim carries (loaded_rim.hpp)
+  std::vector<double> rim;            ///< state of a loaded rim (loaded_rim.hpp)
   std::vector<double> ring;           ///< contacts of a massless boundary (MasslessContact::save)
-  /// Of each node where the parts of the scheme "hati" meet: u and v of the coarse part [m], [m/s],
-  /// and the multiplier [N/m]; (3 interface).
+  /// For each node where the parts of the scheme "hati" meet: u and v of the coarse part [m],
+  /// [m/s], and the multiplier [N/m]; (3 interface).
   std::vector<Vec2> interface;
   std::array<double, Ledger::n_numbers> ledger{};
 };

@@ -42,7 +42,7 @@ std::vector<T> get(const File& file, const std::string& name, std::size_t rows =
   return file.dataset(name, shape).read<T>();
 }
 
-/// In the plane or in space, as its dataset is.
+/// Reads a field in the plane or in space, according to its dataset.
 Field get_field(const File& file, const std::string& name) {
   const h5::Dataset dataset = file.dataset(name);
   if (dataset.shape().size() == 2 && dataset.shape()[1] == 3) return get<Vec3>(file, name);
@@ -52,13 +52,13 @@ Field get_field(const File& file, const std::string& name) {
 double stored(double value) {
   return value;
 }
-/// All whole numbers are kept with 64 bits.
+/// All integers are stored with 64 bits.
 template <class Whole>
 std::int64_t stored(Whole value) {
   return static_cast<std::int64_t>(value);
 }
 
-/// Of the contact's figures in run.json.
+/// Visits the figures of the contact in run.json.
 template <class Known, class Visit>
 void for_contact(Known& c, Visit&& visit) {
   visit("/contact/residual", c.residual, {"1", "largest relative residual of the law"});
@@ -90,7 +90,7 @@ void for_deformation(Known& d, Visit&& visit) {
   visit("/deformation/jacobian_time", d.jacobian_time, {"s", "its time"});
 }
 
-/// visit(name, text) of what a run is, but its step.
+/// Calls visit(name, text) for the identity of a run, except its step.
 template <class Known, class Visit>
 void for_texts(Known& identity, Visit&& visit) {
   visit("/identity/version", identity.version);
@@ -100,7 +100,7 @@ void for_texts(Known& identity, Visit&& visit) {
   visit("/identity/mesh_hash", identity.mesh_hash);
 }
 
-/// visit(name, value, label) of all numbers that stand alone; units are those of a plane body.
+/// Calls visit(name, value, label) for all single numbers; units are those of a plane body.
 template <class Known, class Visit>
 void for_scalars(Known& k, Visit&& visit) {
   const std::string row = "since the last row of history.csv", loop = "of the loop so far, ";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  checkpoint.h5 of a run (docs/results.md): all that it needs to go on to the same bits.
+/// @file  checkpoint.h5 of a run (docs/results.md): all data that it needs to resume bit for bit.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -17,12 +17,12 @@
 
 namespace rondo::study {
 
-/// What a run is: it goes on only where all of this is the same.
+/// The identity of a run: it is resumed only if all of this is the same.
 struct RunIdentity {
   std::string version, build_id;
   std::string dispatch;   ///< instruction set of the inner loops
   std::string case_text;  ///< as read, all defaults written out
-  std::string mesh_hash;  ///< of nodes, cells, boundary: a mesh file may have changed
+  std::string mesh_hash;  ///< of nodes, cells, boundary, because a mesh file may change
   double step = 0.0;      ///< Δt [s]
 };
 
@@ -31,30 +31,30 @@ struct Checkpoint {
   dynamics::SavedState state;
   long long n_steps = 0;  ///< of the whole run
   HistoryPlace history;
-  std::vector<double> last_row;  ///< of history.csv, at the end of a run: only kept if it stays so
+  std::vector<double> last_row;  ///< of history.csv at the end; kept only if the run ends there
   SnapshotSchedule schedule;
   ContactStatistics contact;
   fem::LargestDeformation deformation;
   int problems_kept = 0;  ///< in contact-problems/
   double loop_wall_s = 0.0, loop_cpu_s = 0.0;
   KeptFiles files;
-  bool is_at_end = false;  ///< the run that goes on from it ends there; not in the file
+  bool is_at_end = false;  ///< a run resumed from it would end at once; not in the file
 };
 
-/// Of a node, at the most: u, v, K u, gradient.
+/// Largest number of values per node: u, v, K u, gradient.
 inline constexpr std::size_t numbers_of_a_checkpoint = 8;
-/// In three dimensions: u, v, K u, and u a step before.
+/// Largest number in three dimensions: u, v, K u, and u one step before.
 inline constexpr std::size_t numbers_of_a_solid_checkpoint = 12;
 
 inline constexpr const char* checkpoint_name = "checkpoint.h5";
 
 RunIdentity identity_of(const Case& c, const Setup& setup);
 
-/// Takes the place of directory/checkpoint.h5. @throws FileError
+/// Replaces directory/checkpoint.h5. @throws FileError
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& checkpoint);
 
-/// @param check sees the identity first, and may throw: what another version wrote may be arranged
-/// in another way. @throws FileError: missing, damaged, of another format
+/// @param check receives the identity first and may throw, because a file of another version may
+/// have another layout. @throws FileError: missing, damaged, of another format
 Checkpoint read_checkpoint(const std::filesystem::path& directory,
                            const std::function<void(const RunIdentity&)>& check = {});
 

@@ -16,7 +16,7 @@ constexpr std::array history{
         "∫ω dt, by which the rim has turned, > 0 clockwise like `motion.angular_velocity` "
         "(−θ, `/frame/angle`); where nothing is constrained, the mean rotation of the first body, "
         "likewise",
-        [](const H& r) { return 0.0 - r.angle; }},  // no -0
+        [](const H& r) { return 0.0 - r.angle; }},  // avoids -0
     Column<H>{
         "center_x_m", "m",
         "center, fixed frame; where nothing is constrained, the center of mass of the first body",
@@ -191,7 +191,7 @@ constexpr std::array contact{
         "other or a reduced model touches at places that stand still",
         [](const P& r) { return r.extent; }}};
 
-/// Of a wheel in three dimensions. x is along t1, y along the normal n of the ground.
+/// Columns of a wheel in three dimensions. x is along t1, y along the normal n of the ground.
 constexpr std::array solid_contact{
     Column<P>{"time_s", "s", "of the snapshot", [](const P& r) { return r.time; }},
     Column<P>{"node", "1", "number of the node",
@@ -222,7 +222,7 @@ constexpr std::array solid_contact{
               "`contact_area_m2` of history.csv",
               [](const P& r) { return r.extent; }}};
 
-/// Columns that come together, and what a run has where they do.
+/// A group of columns, and the feature of a run that adds it.
 struct ColumnGroup {
   bool HistoryFeatures::*feature;
   std::span<const Column<H>> columns;

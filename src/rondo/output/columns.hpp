@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Columns of history.csv and contact.csv: one row each, from which header, values, run.json
-/// (where readers find units) and docs/results.md follow.
+/// @file  Columns of history.csv and contact.csv, one row each. Header, values, the units for
+/// readers in run.json, and docs/results.md are made from them.
 #pragma once
 #include <span>
 
@@ -10,11 +10,11 @@
 
 namespace rondo::study {
 
-/// A row of history.csv, of any analysis; what an analysis has not is 0.
+/// A row of history.csv of any analysis; values that an analysis does not have are 0.
 struct HistoryRecord {
-  double time = 0.0;   ///< [s], or a share of the load                                  [1]
-  double angle = 0.0;  ///< θ of the turning frame                                       [rad]
-  // In three dimensions (t1, n, t2) of ground_frame.hpp, else x, y, 0.
+  double time = 0.0;   ///< [s], or a fraction of the load                              [1]
+  double angle = 0.0;  ///< θ of the rotating frame                                      [rad]
+  // Vectors in (t1, n, t2) of ground_frame.hpp in three dimensions, else x, y, 0.
   Vec3 center;          ///< [m]
   Vec3 force;           ///< of the ground on the body                               [N/m], [N]
   double torque = 0.0;  ///< of the ground about the center                               [N]
@@ -23,12 +23,12 @@ struct HistoryRecord {
   double penetration = 0.0;     ///< [m]
   double slip_ratio = 0.0;      ///< [1]
   dynamics::Balance balance;
-  int iterations = 0, extensions = 0;  ///< of contact nodes without mass, most in a step
-  dynamics::RimReport rim;            ///< of a loaded rim; what holds it as means over the interval
-  dynamics::MaterialReport material;  ///< of rubber
-  // In three dimensions:
+  int iterations = 0, extensions = 0;  ///< of massless contact nodes, largest in a step
+  dynamics::RimReport rim;             ///< loaded rim only; reactions are means over the interval
+  dynamics::MaterialReport material;   ///< rubber only
+  // Used in three dimensions only:
   double moment_aligning = 0.0;     ///< about n                                        [N·m]
-  double moment_overturning = 0.0;  ///< about t1, in the ground under the center        [N·m]
+  double moment_overturning = 0.0;  ///< about t1, on the ground below the center [N·m]
   double slip_angle = 0.0;          ///< [rad]
 };
 
@@ -36,27 +36,27 @@ struct HistoryRecord {
 struct ContactRecord {
   double time = 0.0;  ///< as in history.csv
   int node = 0;
-  double abscissa = 0.0;  ///< along the ground; NaN: pressed against a body             [m]
+  double abscissa = 0.0;  ///< along the ground; NaN: in contact with a body           [m]
   Vec3 position;          ///< fixed frame; in three dimensions along (t1, n, t2)         [m]
   Vec3 traction;          ///< pressure, shear along J n, in three dimensions along t2    [Pa]
-  double extent = 0.0;    ///< of the deformed boundary that the node stands for   [m], [m²]
+  double extent = 0.0;    ///< of the deformed boundary that belongs to the node [m], [m²]
   double slip = 0.0;      ///< as in ContactForce                                        [m/s]
   bool sticks = false;    ///< as in ContactForce
 };
 
-/// What a run has besides a plane body whose rim follows tables. Each gives history.csv a group of
-/// columns.
+/// Features of a run beyond a plane body whose rim follows its tables. Each adds a group of columns
+/// to history.csv.
 struct HistoryFeatures {
   bool solid = false;     ///< a wheel in three dimensions: also other units, and an area
   bool rim = false;       ///< a loaded rim
-  bool massless = false;  ///< contact nodes without mass
+  bool massless = false;  ///< massless contact nodes
   bool rubber = false;
-  bool hati = false;  ///< the scheme
+  bool hati = false;  ///< the scheme "hati"
 };
 
-/// Columns of history.csv: those that every run has, then the groups in the order of the features.
+/// Columns of history.csv: those of all runs, then the groups in the order of the features.
 [[nodiscard]] std::vector<ColumnLabel> history_labels(const HistoryFeatures& features);
-/// Adds the values of these columns.
+/// Appends the values of these columns.
 void append_history(const HistoryFeatures& features, const HistoryRecord& record,
                     std::vector<double>& values);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Largest and total figures of the contact over a run.
+/// @file  Maxima and sums of the contact over a run.
 #pragma once
 #include "rondo/model/contact_node.hpp"
 
@@ -16,13 +16,13 @@ struct ContactStatistics {
   long long clusters = 0;
   long long clusters_not_converged = 0;
   int cluster_largest = 0;
-  int cluster_iterations = 0;  ///< most of one
-  long long extensions = 0;    ///< of a massless boundary: times that nodes joined
-  int extensions_max = 0;      ///< most in a step
-  int between_bodies = 0;      ///< most in a step
+  int cluster_iterations = 0;  ///< largest of one cluster
+  long long extensions = 0;    ///< of a massless boundary: how often nodes were added
+  int extensions_max = 0;      ///< largest in a step
+  int between_bodies = 0;      ///< largest in a step
 
   bool operator==(const ContactStatistics&) const = default;
-  /// The figures of a step.
+  /// Adds the contact of a step.
   void add(const dynamics::ContactReport& r) noexcept;
 };
 

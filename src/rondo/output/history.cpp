@@ -10,7 +10,7 @@
 namespace rondo::study {
 namespace {
 
-/// Of a disk; of a mesh the largest of the candidates that are held. 0: all of them are free.
+/// The radius of a disk, or the largest one of constrained candidates of a mesh. 0: all are free.
 double rolling_radius(const Case& c, const Setup& setup) {
   if (!is_held(c)) return 0.0;
   if (is_generated(c)) return c.disk.outer_radius;
@@ -64,7 +64,7 @@ long long History::next_row() const noexcept {
   if (at_.next == HistoryPlace::never) return HistoryPlace::never;
   if (interval_ == 0.0) return at_.done + 1;
   const auto time = [&](long long step) { return static_cast<double>(step) * dt_; };
-  // A guess, then the same comparison as that of the step itself.
+  // An estimate, corrected by the same comparison as in is_due().
   auto step = static_cast<long long>(static_cast<double>(at_.next) * interval_ / dt_ - 0.5);
   step = std::max(step, at_.done + 1);
   while (step > at_.done + 1 && is_due(time(step - 1))) --step;
@@ -72,7 +72,7 @@ long long History::next_row() const noexcept {
   return step;
 }
 
-/// The report's length, stretched like the boundary of the nodes that are pressed.
+/// The length in the report, stretched like the boundary at nodes in contact.
 double History::contact_length(const dynamics::StepReport& step,
                                const dynamics::State* state) const {
   const double length = step.contact.length;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* history_name = "history.csv";
 constexpr std::size_t rows_at_once = 32;
-constexpr std::chrono::milliseconds longest_wait{200};  ///< of a row before it is handed over
+constexpr std::chrono::milliseconds longest_wait{200};  ///< for a row to be handed over
 
 std::vector<double> no_rows(std::size_t numbers) {
   std::vector<double> rows;
@@ -37,7 +37,7 @@ std::optional<io::Csv> history_file(const std::filesystem::path& directory,
   return from ? io::Csv(file, names, from->files.table(history_name)) : io::Csv(file, names);
 }
 
-/// First number of the last whole row of history.csv as it was then; 0: it has none.
+/// Time in the last complete row of history.csv at the checkpoint; 0: it has no row.
 double time_kept(const std::filesystem::path& directory, const Checkpoint* from) {
   if (!from) return 0.0;
   std::ifstream file(directory / history_name, std::ios::binary);
@@ -51,8 +51,8 @@ double time_kept(const std::filesystem::path& directory, const Checkpoint* from)
 }  // namespace
 
 std::size_t queue_length(std::size_t n_snapshots, std::size_t bytes) noexcept {
-  constexpr std::size_t rows_only = 8;  // slots for rows between the snapshots
-  constexpr std::size_t most = 512;     // what is written must not be far behind the run
+  constexpr std::size_t rows_only = 8;  // slots for rows between snapshots
+  constexpr std::size_t most = 512;     // so that writing is never far behind the run
   const std::size_t wanted = std::min(n_snapshots + rows_only, most);
   return std::clamp<std::size_t>(output_queue_bytes / std::max<std::size_t>(bytes, 1), 2, wanted);
 }
@@ -76,12 +76,12 @@ FileRecorder::FileRecorder(std::filesystem::path directory, const RecordPlan& pl
 FileRecorder::~FileRecorder() {
   try {
     close();
-  } catch (...) {  // reported where close() is called
+  } catch (...) {  // reported if close() is called
   }
 }
 
-/// Their memory is reserved, and becomes the process's own as it is first written to: a run whose
-/// output keeps up takes but a few of them.
+/// Their memory is reserved but mapped only when it is first written: a run whose output keeps up
+/// uses only a few of them.
 std::vector<FileRecorder::Slot> FileRecorder::make_slots(const RecordPlan& plan) const {
   const io::ResultsLayout& layout = plan.results;
   const std::size_t nodes = layout.n_snapshots == 0 ? 0 : layout.mesh->n_nodes();
@@ -134,7 +134,7 @@ void FileRecorder::keep_up() {
   hand_over();
 }
 
-/// With the rows so far.
+/// Takes a free slot and moves the rows so far into it.
 FileRecorder::Slot& FileRecorder::take_slot() {
   taken_ = Clock::now();
   slot_ = writer_.take();
@@ -164,8 +164,8 @@ void FileRecorder::write(Slot& slot) {
   saving_ = false;
 }
 
-/// What it says of the other files must be true whatever happens to the machine: they are synced
-/// first.
+/// What the checkpoint says of the other files must be true even if the machine fails, so these are
+/// synced first.
 void FileRecorder::write(Checkpoint& checkpoint) {
   io::sync_file(history_csv_->path());
   snapshots_->sync();
@@ -191,7 +191,7 @@ void FileRecorder::close() {
 std::string FileRecorder::kept() {
   try {
     close();
-  } catch (...) {  // what is asked about
+  } catch (...) {  // the state of files is asked for after an error
   }
   if (!history_csv_ || !snapshots_) return "what was written is kept";
   const std::string until = time_unit_ == "s" ? fmt::format("t = {:.9g} s", kept_until_)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  All files of results while an analysis goes on, off its loop: the loop hands over
-/// numbers, a thread of its own recovers stresses, formats and writes
+/// @file  Writes all result files during an analysis, outside its loop: the loop hands over
+/// numbers, and a separate thread computes stresses, formats and writes
 /// (docs/decisions/014-writer-thread.md).
 #pragma once
 #include <atomic>
@@ -25,37 +25,37 @@
 
 namespace rondo::study {
 
-/// Memory of what was handed over and not yet written, at the most; but there is place for two
-/// snapshots however large [B].
+/// Largest memory of data that was handed over and not yet written; but two snapshots always have
+/// room, whatever their size [B].
 inline constexpr std::size_t output_queue_bytes = 64'000'000;
 
-/// Snapshots that can wait to be written. @param bytes of one
+/// Number of snapshots that can wait to be written. @param bytes of one snapshot
 [[nodiscard]] std::size_t queue_length(std::size_t n_snapshots, std::size_t bytes) noexcept;
 
-/// What output cost a run [s].
+/// Cost of the output of a run [s].
 struct OutputCost {
-  double wait_wall_s = 0.0;   ///< of the loop, handing over: copies, waiting for a free slot
+  double wait_wall_s = 0.0;   ///< of the loop, handing over: copying, waiting for a free slot
   double drain_wall_s = 0.0;  ///< after the loop, until everything was written
-  double write_wall_s = 0.0;  ///< of the thread, at work
+  double write_wall_s = 0.0;  ///< of the thread, working
   long long queue_full = 0;   ///< how often the loop had to wait for a free slot
 };
 
-/// What an analysis records; all that it points to must outlive the recorder.
+/// What an analysis records; everything that it points to must outlive the recorder.
 struct RecordPlan {
-  io::ResultsLayout results;  ///< of results.h5 and fields.xdmf; no mesh: none, nor contact.csv
-  std::vector<ColumnLabel> columns;  ///< of history.csv; the first is the time. Empty: none
-  /// Of contact.csv behind those that it always has.
+  io::ResultsLayout results;         ///< of results.h5, fields.xdmf; no mesh: no such files
+  std::vector<ColumnLabel> columns;  ///< of history.csv; the first is the time. Empty: no such file
+  /// Columns of contact.csv after those that it always has.
   std::span<const Column<ContactRecord>> contact_columns;
-  std::size_t own_bytes = 0;                 ///< on disk, of files that the analysis writes itself
-  std::size_t n_rows = 0;                    ///< of history.csv, expected
+  std::size_t own_bytes = 0;                 ///< on disk, of files that the analysis itself writes
+  std::size_t n_rows = 0;                    ///< expected number of rows of history.csv
   std::span<const fem::Material> materials;  ///< of the mesh's regions, for stress
-  const contact::Ground* ground = nullptr;   ///< for abscissas; null: none
-  const dynamics::Model* model = nullptr;    ///< where there are free bodies; else null
+  const contact::Ground* ground = nullptr;   ///< for the abscissa; null: none
+  const dynamics::Model* model = nullptr;    ///< if there are free bodies; else null
 };
 
 class SnapshotFiles;
 
-/// Takes what an analysis hands over while it goes on.
+/// Receives what an analysis hands over while it runs.
 class Recorder {
  public:
   Recorder() = default;
@@ -63,65 +63,65 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// A row of the history, or none, is appended by the caller; then rows_added().
+  /// The caller appends one row of the history, or none, and then calls rows_added().
   [[nodiscard]] std::vector<double>& rows() noexcept { return rows_; }
   [[nodiscard]] const std::vector<double>& rows() const noexcept { return rows_; }
   virtual void rows_added() = 0;
   void add_row(std::span<const double> row);
-  /// A snapshot to be filled, whose memory is reserved; then add_snapshot(). Nothing else is called
-  /// in between.
+  /// A snapshot for the caller to fill, with its memory reserved; then add_snapshot(). Nothing else
+  /// may be called in between.
   [[nodiscard]] virtual Snapshot& next_snapshot() = 0;
   virtual void add_snapshot() = 0;
-  /// A run that goes on from it drops what is added after.
+  /// A run that is resumed from it drops everything added after this call.
   virtual void save(Checkpoint checkpoint) = 0;
-  /// A checkpoint is not yet written: a second would take as much memory again.
+  /// Whether a checkpoint is not yet written: a second one would need the same memory again.
   [[nodiscard]] virtual bool is_saving() const noexcept = 0;
-  /// To be called now and then.
+  /// Must be called from time to time.
   virtual void keep_up() = 0;
 
  protected:
   std::vector<double> rows_;  ///< not yet handed over
 };
 
-/// history.csv, results.h5, fields.xdmf, contact.csv and checkpoint.h5. Every call throws what the
-/// thread met (FileError, std::bad_alloc) since the last one.
+/// history.csv, results.h5, fields.xdmf, contact.csv and checkpoint.h5. Every call rethrows an
+/// exception of the thread (FileError, std::bad_alloc) since the previous call.
 class FileRecorder : public Recorder {
  public:
-  /// Creates the files or, from a checkpoint, goes on with those that are there. @throws FileError
+  /// Creates the files or, after a checkpoint, continues the existing ones. @throws FileError
   FileRecorder(std::filesystem::path directory, const RecordPlan& plan,
                const Checkpoint* from = nullptr);
-  /// Writes what is there, as far as that is possible; errors are reported where close() is called.
+  /// Writes the pending data as far as possible; errors are reported only if close() is called.
   ~FileRecorder() override;
 
-  /// Hands rows over where there are many of them.
+  /// Hands the rows over if there are many.
   void rows_added() override;
   [[nodiscard]] Snapshot& next_snapshot() override;
   void add_snapshot() override;
-  /// Writes checkpoint.h5 once all before it is written; its `files` are filled in.
+  /// Writes checkpoint.h5 after everything before it; fills in its `files`.
   void save(Checkpoint checkpoint) override;
   [[nodiscard]] bool is_saving() const noexcept override { return saving_.load(); }
-  /// Hands over rows that would else wait for a snapshot, or for more rows.
+  /// Hands over rows that would otherwise wait for a snapshot or for more rows.
   void keep_up() override;
   /// Step of the last checkpoint written; 0: none.
   [[nodiscard]] long long saved_step() const noexcept { return saved_step_.load(); }
   /// Writes everything and closes the files.
   void close();
 
-  /// What the files hold, in words, after a call has thrown: for the message. Closes them.
+  /// The contents of the files in words, for the message after a call has thrown. Closes them.
   [[nodiscard]] std::string kept();
-  /// Complete once closed.
+  /// Complete once the files are closed.
   [[nodiscard]] OutputCost cost() const;
-  /// What they hold. @pre closed, or called by the thread that writes
+  /// The contents of the files. @pre closed, or called by the writing thread
   [[nodiscard]] KeptFiles files() const;
-  /// Snapshots in the files. @pre closed.
+  /// Number of snapshots in the files. @pre closed.
   [[nodiscard]] std::size_t written() const;
-  /// First number of the last row of history.csv; 0: none. @pre closed.
+  /// Time in the last row of history.csv; 0: no rows. @pre closed.
   [[nodiscard]] double last_time() const noexcept { return kept_until_; }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// Of what is handed over: rows of history.csv, then a snapshot, then a checkpoint.
+  /// Data handed over together, in this order: rows of history.csv, a snapshot, a checkpoint.
   struct Slot {
     std::vector<double> rows;
     bool has_snapshot = false;
@@ -138,20 +138,20 @@ class FileRecorder : public Recorder {
   const std::filesystem::path directory_;
   const std::string time_unit_;
   const std::size_t n_columns_;        ///< of history.csv
-  const std::size_t numbers_at_once_;  ///< of some rows
-  std::size_t slot_ = 0;               ///< in hand
+  const std::size_t numbers_at_once_;  ///< size at which rows are handed over
+  std::size_t slot_ = 0;               ///< the current slot
   Clock::time_point taken_{}, handed_over_ = Clock::now();
   double wait_s_ = 0.0, drain_s_ = 0.0;
   bool closed_ = false;
-  double kept_until_ = 0.0;  ///< time of the last row written; the thread's
+  double kept_until_ = 0.0;  ///< time of the last row written; used by the thread
   std::atomic<bool> saving_{false};
   std::atomic<long long> saved_step_{0};
-  // The thread's from its start to its end.
-  std::unique_ptr<SnapshotFiles> snapshots_;  ///< first: what fails while it copies leaves all
-                                              ///< files as they were. Null: none
+  // Used by the thread only, from its start to its end.
+  std::unique_ptr<SnapshotFiles> snapshots_;  ///< first: if copying fails, all
+                                              ///< files remain unchanged. Null: none
   std::optional<io::Csv> history_csv_;
   std::vector<Slot> slots_;
-  WriterThread writer_;  ///< last: ends before what it works with
+  WriterThread writer_;  ///< last: ends before the members that it uses
 };
 
 }  // namespace rondo::study

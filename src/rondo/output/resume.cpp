@@ -35,7 +35,7 @@ bool same(const CaseValue& a, const CaseValue& b) {
          std::equal(a.items.begin(), a.items.end(), b.items.begin(), b.items.end(), same);
 }
 
-/// Of a number or a table in time; none: it is neither.
+/// The table in time of a value; none: it is neither a number nor a table.
 std::optional<dynamics::Table> table_of(const CaseValue& value) {
   if (value.items.empty()) return dynamics::Table(value.number);
   std::vector<std::array<double, 2>> points;
@@ -47,8 +47,8 @@ std::optional<dynamics::Table> table_of(const CaseValue& value) {
   return dynamics::Table(std::move(points));
 }
 
-/// Two tables in time are one up to a time, but for the round-off of a slope that was cut: where
-/// both are linear they agree if they do at its ends.
+/// Whether two tables in time agree up to a time, except for the round-off of a slope that was cut:
+/// where both are linear they agree if they do at both ends.
 bool same_until(const CaseValue& a, const CaseValue& b, double until) {
   constexpr double round_off = 1e-12;
   const std::optional<dynamics::Table> one = table_of(a), other = table_of(b);
@@ -72,7 +72,7 @@ Fault differs(const std::string& key, const std::string& found, const std::strin
   return {"", 0, 0, key, found, message, allowed + or_begin_again};
 }
 
-/// Of the keys of two cases as they are written out: all are there unless the kind of a thing
+/// Compares the keys of two cases as written out. All keys are present unless the type of a part
 /// differs.
 void compare_cases(const Checkpoint& k, const Case& c, const Setup& setup,
                    std::vector<Fault>& faults) {
@@ -81,12 +81,12 @@ void compare_cases(const Checkpoint& k, const Case& c, const Setup& setup,
   const SnapshotSchedule longer = with_end(k.schedule, c.output, setup.model.dt, setup.n_steps);
   const std::array snapshots{static_cast<std::int64_t>(k.schedule.steps.size()),
                              static_cast<std::int64_t>(longer.steps.size())};
-  // What the step after the checkpoint begins with is known already.
+  // The values at which the step after the checkpoint begins have been used already.
   const double known_until = static_cast<double>(k.state.step + 1) * k.identity.step;
   for (const auto& [key, value] : now.values) {
     const CaseKey* known = find_case_key(key);
     if (known && known->use.may_change_on_resume) continue;
-    // A longer run keeps its interval: its case, as it is kept, counts all of its snapshots.
+    // A longer run keeps its interval: its case, as stored, has the number of all its snapshots.
     if (key == "output.snapshots" &&
         std::find(snapshots.begin(), snapshots.end(), value.integer) != snapshots.end())
       continue;
@@ -119,7 +119,7 @@ void compare_programs(const RunIdentity& then, const RunIdentity& now, std::vect
           fmt::format("RONDO_DISPATCH={} on a machine that has them", then.dispatch));
 }
 
-/// A run that was cut off before its first checkpoint begins anew, if it is this one.
+/// If a run was interrupted before its first checkpoint, and is this run, it starts again.
 void clear_without_checkpoint(const Case& c, const std::filesystem::path& directory) {
   const std::string mark = io::mark_of_run(directory);
   if (mark.empty()) return;
@@ -133,7 +133,7 @@ void clear_without_checkpoint(const Case& c, const std::filesystem::path& direct
   io::clear_results_directory(directory);
 }
 
-/// Of all branches of all elements.
+/// Number of values of all branches of all elements.
 std::size_t branch_numbers(const Setup& setup) {
   std::size_t n = 0;
   for (std::size_t e = 0; e < setup.mesh.cells.size(); ++e) {
@@ -143,12 +143,12 @@ std::size_t branch_numbers(const Setup& setup) {
   return n;
 }
 
-/// As many points, each with as many components as the model's.
+/// Whether a field has the right number of points and the components of the model.
 bool fits(const Field& field, std::size_t points, const dynamics::Model& model) {
   return field.size() == points && (points == 0 || field.components() == model.components());
 }
 
-/// All that the integrator of this model carries, and nothing else.
+/// Whether the state has exactly what the integrator of this model carries.
 bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const dynamics::Model& model = setup.model;
   const std::size_t n = model.n_nodes(), n_free = model.free_bodies.size();
@@ -157,7 +157,7 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const bool general = step == dynamics::StepKind::general || step == dynamics::StepKind::wheel;
   const bool rim = model.rim.has_value(), massless = has_massless_contact(model);
   const bool of_force = general || rim || (model.stiffness_damping > 0.0 && !parts);
-  // The readable step of a wheel in three dimensions carries it always.
+  // The reference step of a wheel in three dimensions always carries it.
   const bool carries_force = of_force || (model.solid && !s.force.empty());
   const std::size_t force = carries_force ? n : 0;
   const std::size_t joined = parts ? 3 * model.subdomains->interface.size() : 0;
@@ -174,7 +174,7 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
          std::ranges::is_sorted(s.impulses, {}, first_of);
 }
 
-/// Steps that rise within the run, and as many snapshots as of them have passed.
+/// Whether steps increase within the run, and as many have passed as there are snapshots.
 bool fits(const SnapshotSchedule& schedule, const Checkpoint& k) {
   const std::vector<long long>& steps = schedule.steps;
   const auto passed = std::upper_bound(steps.begin(), steps.end(), k.state.step) - steps.begin();
@@ -184,7 +184,7 @@ bool fits(const SnapshotSchedule& schedule, const Checkpoint& k) {
          std::isfinite(schedule.interval) && schedule.interval >= 0.0;
 }
 
-/// Its numbers do not contradict each other, the case, or the model.
+/// Checks that its numbers are consistent with each other, the case, and the model.
 void demand_sound(const Checkpoint& k, const Case& c, const Setup& setup,
                   const std::filesystem::path& directory) {
   const HistoryPlace& h = k.history;
@@ -233,7 +233,7 @@ void refuse_without_checkpoints(const std::filesystem::path& directory) {
   try {
     if (io::read_json(directory / "run.json").value("resumable", true)) return;
   } catch (const std::exception&) {
-    return;  // a damaged one says nothing: what goes on from there looks for itself
+    return;  // a damaged file: reading it to resume reports that
   }
   throw request_error("--resume", directory.string(),
                       "holds the results of a run that keeps no checkpoints",
@@ -242,7 +242,7 @@ void refuse_without_checkpoints(const std::filesystem::path& directory) {
 
 namespace {
 
-/// What differs is told with the file whose run it is.
+/// Differences are reported with the file of the checkpoint.
 Checkpoint read_checkpoint_of(const std::filesystem::path& directory, const RunIdentity& now,
                               const Case& c, const Setup& setup) {
   try {

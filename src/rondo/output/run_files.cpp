@@ -24,10 +24,10 @@ namespace rondo::study {
 namespace {
 
 constexpr const char* mesh_copy = "mesh.msh";
-constexpr std::uintmax_t largest_copy = 50'000'000;  ///< bytes of a mesh file that is copied
+constexpr std::uintmax_t largest_copy = 50'000'000;  ///< largest mesh file that is copied [bytes]
 
-/// The case as run is written into the directory as case.toml, the mesh as mesh.msh: they must not
-/// replace the user's files.
+/// case.toml and mesh.msh are written into the directory; they must not replace the user's files
+/// there.
 void keep_the_users_files(const Case& c, const std::filesystem::path& directory) {
   const auto refuse_replacing = [&](const std::filesystem::path& file, const char* name,
                                     const char* what) {
@@ -180,7 +180,7 @@ void write_contact_problem(const std::filesystem::path& directory, int number,
 
 io::DirectoryLock take_directory(const Case& c, const RunOptions& options) {
   if (options.before_loop) options.before_loop();
-  // What is there to be gone on with is the run's own.
+  // If a run is resumed, these files are the run's own.
   if (!options.resume || io::mark_of_run(options.directory).empty())
     keep_the_users_files(c, options.directory);
   return io::take_results_directory(options.directory, options.resume ? io::DirectoryUse::go_on

@@ -6,7 +6,7 @@
 namespace rondo::study {
 namespace {
 
-/// A node held by two facets is pressed along the frame of the deeper one, listed first.
+/// A node that touches two facets is given in the frame of the deeper one, which is listed first.
 void take_contacts(const dynamics::Model& model, const dynamics::State& state,
                    std::vector<ContactForce>& contacts) {
   const GroundFrame ground(model.motion.camber);

@@ -10,7 +10,7 @@ using io::ContactForce;
 using io::Snapshot;
 
 /// Fills and returns `snapshot` from a state of a motion: fields, contacts, position of the frame.
-/// On a loaded rim the angle at the velocity's time is the mean of those at both ends of the step.
+/// On a loaded rim the angle at the velocity's time is the mean over both ends of the step.
 Snapshot& fill_snapshot(const Setup& setup, const dynamics::State& state, Snapshot& snapshot);
 
 }  // namespace rondo::study

@@ -51,7 +51,7 @@ SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const Recor
   rows_.reserve((columns().size() + further_columns_.size()) * nb);
 }
 
-/// A node held by two facets gives the sum of both, and sticks where both that press it do.
+/// A node that touches two facets has the sum of both, and sticks if both that press it stick.
 void SnapshotFiles::collect_contact(const Snapshot& snapshot) {
   std::fill(on_ground_.begin(), on_ground_.end(), char{0});
   std::fill(sticks_.begin(), sticks_.end(), char{1});
@@ -67,7 +67,7 @@ void SnapshotFiles::collect_contact(const Snapshot& snapshot) {
   }
 }
 
-/// In the plane x, y; in three dimensions along (t1, n, t2).
+/// Position x, y in the plane; in three dimensions along (t1, n, t2).
 Vec3 SnapshotFiles::position(const Snapshot& s, std::size_t node) const {
   if (mesh_.is_solid()) {
     const Vec3 arm = Vec3(mesh_.coordinates[node], mesh_.axial[node]) + s.u.space()[node];
@@ -98,7 +98,7 @@ void SnapshotFiles::write_contact_rows(const Snapshot& snapshot) {
   contact_csv_.rows(rows_);
 }
 
-/// The displacements whose strain is stress: of free bodies in the frame of their mean rotation.
+/// Displacements that cause stress: for free bodies in the frame of their mean rotation.
 std::span<const Vec2> SnapshotFiles::elastic(const Snapshot& snapshot) {
   if (elastic_.empty()) return snapshot.u;
   dynamics::elastic_displacements(*model_, snapshot.u, snapshot.poses, elastic_);

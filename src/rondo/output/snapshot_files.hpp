@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  results.h5, fields.xdmf, fields.vtkhdf and contact.csv: a snapshot after the other.
+/// @file  results.h5, fields.xdmf, fields.vtkhdf and contact.csv, written snapshot by snapshot.
 #pragma once
 #include <cstddef>
 #include <filesystem>
@@ -15,10 +15,10 @@
 
 namespace rondo::study {
 
-/// Made, used and closed by one thread at a time.
+/// Only one thread at a time may create, use and close it.
 class SnapshotFiles {
  public:
-  /// Creates the files or, from a checkpoint, goes on with those that are there. @throws FileError
+  /// Creates the files or, after a checkpoint, continues the existing ones. @throws FileError
   SnapshotFiles(const std::filesystem::path& directory, const RecordPlan& plan,
                 const Checkpoint* from);
   /// @throws FileError
@@ -26,9 +26,9 @@ class SnapshotFiles {
   /// @throws FileError
   void close();
   [[nodiscard]] std::size_t written() const { return results_.written(); }
-  /// What they hold by now, also once they are closed.
+  /// Adds the contents of the files so far; also valid once they are closed.
   void add_to(KeptFiles& files) const;
-  /// All that was written is on the disk, whatever happens to the machine. @throws FileError
+  /// Makes sure that everything written is on the disk even if the machine fails. @throws FileError
   void sync() const;
 
  private:
@@ -46,15 +46,15 @@ class SnapshotFiles {
   const dynamics::Model* model_;
   const bool contact_;
   const std::span<const Column<ContactRecord>> further_columns_;
-  io::Results results_;  ///< first: what fails while it copies leaves all files as they were
+  io::Results results_;  ///< first: if copying fails, all files remain unchanged
   io::Csv contact_csv_;
   std::optional<fem::StressRecovery> stress_;
   std::vector<Vec2> elastic_;  ///< (n) displacement in the frame of its body; empty: no free body
   std::vector<Vec3> force_, force_fixed_;  ///< (nb)
-  std::vector<double> extent_;   ///< (nb) of the deformed boundary, where a node is pressed
-  std::vector<char> on_ground_;  ///< (nb) 1: the ground presses it
-  std::vector<double> slip_;     ///< (nb)
-  std::vector<char> sticks_;     ///< (nb)
+  std::vector<double> extent_;             ///< (nb) of the deformed boundary, for nodes in contact
+  std::vector<char> on_ground_;            ///< (nb) 1: the ground touches it
+  std::vector<double> slip_;               ///< (nb)
+  std::vector<char> sticks_;               ///< (nb)
   std::optional<fem::SolidStressRecovery> solid_stress_;
   GroundFrame in_ground_;
   std::vector<double> rows_;

@@ -7,7 +7,7 @@
 namespace rondo::study {
 namespace {
 
-/// At the step nearest to the time, if that is a new one.
+/// Adds the step nearest to the time, unless it is there already.
 void add(SnapshotSchedule& schedule, double time, double dt, long long n_steps) {
   const auto step = static_cast<long long>(std::llround(time / dt));
   const long long within = std::clamp(step, 0LL, n_steps);

@@ -32,7 +32,7 @@ std::size_t WriterThread::take() {
   std::unique_lock lock(mutex_);
   if (free_.empty()) {
     ++times_full_;
-    freed_.wait(lock, [this] { return !free_.empty(); });  // after an error too
+    freed_.wait(lock, [this] { return !free_.empty(); });  // also after an error
   }
   if (error_) std::rethrow_exception(error_);
   const std::size_t slot = free_.back();
@@ -73,7 +73,7 @@ double WriterThread::busy_s() const {
   return busy_s_;
 }
 
-// On the thread -------------------------------------------------------------------------------
+// On the writing thread -----------------------------------------------------------------------
 
 std::exception_ptr WriterThread::work_on(std::size_t slot) noexcept {
   try {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A thread that works off numbered slots in the order in which they were handed over, while
-/// the thread that owns it goes on (docs/decisions/014-writer-thread.md). What a slot holds is the
-/// owner's business: between take() and hand_over() it is the owner's alone, from then until the
-/// work on it has ended the thread's alone.
+/// @file  A thread that processes numbered slots in the order in which they were handed over, while
+/// its owner continues (docs/decisions/014-writer-thread.md). The owner decides what a slot
+/// contains. Only the owner may access a slot between take() and hand_over(), and only the thread
+/// from then until its work on the slot has ended.
 #pragma once
 #include <atomic>
 #include <condition_variable>
@@ -19,23 +19,23 @@ class WriterThread {
  public:
   using Work = std::function<void(std::size_t slot)>;
 
-  /// @param work called on the thread, for one slot at a time. What it throws ends the thread, and
-  /// is thrown on at the owner's next call. @pre n_slots > 0. @throws FileError: no thread to be
-  /// had.
+  /// @param work called on the thread, for one slot at a time. An exception ends the thread and is
+  /// rethrown at the owner's next call. @pre n_slots > 0. @throws FileError: no thread can be
+  /// created.
   WriterThread(std::size_t n_slots, Work work);
-  /// Works off what was handed over, joins; an error that nobody asked for is dropped.
+  /// Processes what was handed over and joins; an error that was not yet reported is dropped.
   ~WriterThread();
   WriterThread(const WriterThread&) = delete;
   WriterThread& operator=(const WriterThread&) = delete;
 
-  /// A free slot, 0 to n_slots - 1; waits until there is one. @throws what the work has thrown
+  /// A free slot, 0 to n_slots - 1; waits for one. @throws the exception of the work
   [[nodiscard]] std::size_t take();
-  /// @pre the slot was taken and not handed over since.
+  /// @pre the slot was taken and has not been handed over since.
   void hand_over(std::size_t slot);
-  /// Cheap. @throws what the work has thrown
+  /// Cheap. @throws the exception of the work
   void check() const;
-  /// Works off what was handed over, joins. No slot can be handed over afterwards. @throws what the
-  /// work has thrown
+  /// Processes what was handed over and joins. No slot can be handed over afterwards. @throws the
+  /// exception of the work
   void finish();
 
   /// Time spent in the work so far [s].
@@ -49,16 +49,16 @@ class WriterThread {
   void join() noexcept;
 
   Work work_;
-  mutable std::mutex mutex_;  ///< of all below but failed_, times_full_ and thread_
+  mutable std::mutex mutex_;  ///< protects all members below except failed_, times_full_, thread_
   std::condition_variable filled_, freed_;
-  std::vector<std::size_t> free_;  ///< the one freed last is taken first: it is still in the caches
-  std::vector<std::size_t> ready_;  ///< ring of n_slots places
+  std::vector<std::size_t> free_;   ///< a stack: the slot freed last is still in the caches
+  std::vector<std::size_t> ready_;  ///< ring buffer of n_slots entries
   std::size_t first_ready_ = 0, n_ready_ = 0;
   double busy_s_ = 0.0;
   bool closing_ = false;
   std::exception_ptr error_;
-  std::atomic<bool> failed_{false};  ///< error_ is set, and stays as it is
-  long long times_full_ = 0;         ///< of the owner
+  std::atomic<bool> failed_{false};  ///< error_ is set and does not change any more
+  long long times_full_ = 0;         ///< accessed by the owner only
   std::thread thread_;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The three methods behind decompose(), and what they share. For this module's own sources.
+/// @file  The three methods of decompose() and their common functions. For this module only.
 #pragma once
 #include "rondo/pod/decompose.hpp"
 
 namespace rondo::pod {
 
-/// Tells the caller's function of the work done, counted in numbers of the matrix read.
+/// Reports the work done to the caller's function, as the number of matrix entries read.
 class Progress {
  public:
   Progress(const SnapshotMatrix& source, const DecomposeOptions& options, int passes)

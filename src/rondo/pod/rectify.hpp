@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The rectified frame: a field of the turning frame moved round the disk to the fixed one,
-/// on a mesh of equal sectors, by an exact isometry (docs/theory.md, 7.3).
+/// @file  The rectified frame: a field of the rotating frame is moved around the disk to the fixed
+/// frame, on a mesh of equal sectors, by an exact isometry (docs/theory.md, 7.3).
 #pragma once
 #include <cstddef>
 #include <span>
@@ -9,39 +9,39 @@
 #include "rondo/core/complex.hpp"
 #include "rondo/mesh/mesh.hpp"
 
-struct fftw_plan_s;  // of the library
+struct fftw_plan_s;  // defined by the library
 
 namespace rondo::pod {
 
-/// Points of a cyclic mesh that follow one another round the disk, ring by ring.
+/// Points of a cyclic mesh that follow one another around the disk, ring by ring.
 struct Rings {
   int n_sectors = 0;
   std::vector<int>
-      point;  ///< (n_rings * n_sectors) place in the field, [ring * n_sectors + sector]
+      point;  ///< (n_rings * n_sectors) index in the field, [ring * n_sectors + sector]
 
   [[nodiscard]] std::size_t n_rings() const noexcept {
     return n_sectors > 0 ? point.size() / static_cast<std::size_t>(n_sectors) : 0;
   }
 };
 
-/// Rings of all nodes; places are nodes. None (n_sectors 0) where the sectors do not all hold the
+/// Rings of all nodes; indices are nodes. Empty (n_sectors 0) if the sectors do not all contain the
 /// same nodes. @pre mesh.n_sectors > 0
 Rings node_rings(const mesh::Mesh& mesh);
-/// The same of the contact candidates; places are places in mesh.boundary. @pre mesh.n_sectors > 0
+/// Rings of the contact candidates; indices are those in mesh.boundary. @pre mesh.n_sectors > 0
 Rings boundary_rings(const mesh::Mesh& mesh);
 
 enum class Components {
-  cartesian,  ///< x, y in the turning frame: turned with the field
-  scalars,    ///< (normal, tangential): moved only
+  cartesian,  ///< x, y in the rotating frame: turned and moved
+  scalars,    ///< (normal, tangential): only moved
 };
 
 enum class Shift {
-  fourier,  ///< by the angle itself: harmonic k over the sectors times e^{-ikθ}, Nyquist's times 1
+  fourier,  ///< by the exact angle: harmonic k over the sectors times e^{-ikθ}, Nyquist's times 1
   pitch,    ///< by the nearest whole number of sectors
 };
 
-/// T(θ): an isometry of the M norm, a group in θ (Shift::fourier), T(θ)⁻¹ = T(-θ) = its adjoint;
-/// commutes with K. Owns the plans and work space of its transforms: one object a thread.
+/// T(θ): an isometry of the M norm, a group in θ (Shift::fourier), T(θ)⁻¹ = T(-θ) = its adjoint; it
+/// commutes with K. Owns the plans and work space of its transforms: one object per thread.
 class Rectifier {
  public:
   Rectifier(int n_sectors, std::size_t n_rings, Components components, Shift shift);
@@ -49,17 +49,17 @@ class Rectifier {
   Rectifier(const Rectifier&) = delete;
   Rectifier& operator=(const Rectifier&) = delete;
 
-  /// In place. @param theta counter-clockwise angle of the turning frame [rad]
+  /// Works in place. @param theta counter-clockwise angle of the rotating frame [rad]
   /// @param values (n_rings * n_sectors) ring after ring, as Rings::point
   void apply(double theta, std::span<Vec2> values);
-  /// One number a point, as the axial components in three dimensions, which no turn about the axle
-  /// changes: moved only, each ring by itself, so that a block of rings has the bits of all of
-  /// them.
+  /// Moves one number per point, such as axial components in three dimensions, which a rotation
+  /// about the axle does not change. Each ring is independent, so that blocks of rings give the
+  /// same bits as all rings.
   /// @param values (n_rings * n_sectors) ring after ring
   void apply(double theta, std::span<double> values);
 
-  /// D, the generator of T: dT/dθ = D T, harmonic k times -ik, Nyquist's times 0. Skew in the M
-  /// product; commutes with T, J and K (docs/theory.md, 7.3). @pre Shift::fourier
+  /// D, the generator of T: dT/dθ = D T, harmonic k times -ik, Nyquist's times 0. It is skew in the
+  /// M product and commutes with T, J and K (docs/theory.md, 7.3). @pre Shift::fourier
   void differentiate(std::span<Vec2> values);
 
  private:
@@ -77,7 +77,7 @@ class Rectifier {
   Shift shift_;
   std::vector<Complex> to_polar_;  ///< (n) e^{-iφ} of the sectors
   std::vector<Complex> phase_;     ///< (n) of the harmonics, over n
-  std::vector<Vec2> work_;         ///< (n) one ring
+  std::vector<Vec2> work_;         ///< (n) space for one ring
   fftw_plan_s* forward_ = nullptr;
   fftw_plan_s* backward_ = nullptr;
 };

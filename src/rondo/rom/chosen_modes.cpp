@@ -25,7 +25,7 @@ ChosenModes choose_modes(const pod::Decomposition& found, const MatrixXd& extra,
       found.sigma.head(n).asDiagonal() * found.temporal.leftCols(n).transpose();
   MatrixXd normed = coefficients;
   if (extra.rows() > 0) {
-    MatrixXd metric(n, n);  // 1 and more: its square costs no accuracy that counts
+    MatrixXd metric(n, n);  // eigenvalues >= 1: squaring costs no relevant accuracy
     multiply_transposed(extra.leftCols(n), extra.leftCols(n), metric);
     metric.diagonal().array() += 1.0;
     const MatrixXd root = metric.llt().matrixU();

@@ -9,10 +9,10 @@
 namespace rondo::rom {
 namespace {
 
-/// For the tables of all phases [bytes], with blocks between a sixteenth of the points in each.
+/// Memory for the tables of all phases [bytes], with blocks for 1/16 of the points in each.
 constexpr double table_room = 256e6;
 
-/// Phases nearer than this are the same: sums of turns differ by round-off.
+/// Closer phases are the same, because sums of rotations differ by round-off.
 
 /// a · B b
 double form(Vec2 a, const Eigen::Matrix2d& matrix, Vec2 b) noexcept {
@@ -66,7 +66,7 @@ ContactSolver::Points ContactSolver::points_at(double angle) {
   if (!nodes_) return {phases_.front().table.get(), 0};
   if (turning_) return {table_of(0.0), 0};
   const double sectors = angle / (2.0 * std::numbers::pi) * mesh_.n_sectors;
-  // Nyquist's harmonic stays where it is on the material: it is the same after two sectors.
+  // Nyquist's harmonic does not move on the material: it is the same again after two sectors.
   const double n = mesh_.n_sectors, period = mesh_.n_sectors % 2 == 0 ? 2.0 : 1.0;
   double whole = period * std::floor(sectors / period), share = sectors - whole;
   if (share > period - same_phase) {
@@ -76,7 +76,7 @@ ContactSolver::Points ContactSolver::points_at(double angle) {
   return {table_of(share), static_cast<int>(whole - n * std::floor(whole / n))};
 }
 
-/// Points follow one another by sectors within a ring.
+/// Points follow one another sector by sector within a ring.
 int ContactSolver::material_of(int point, int sectors) const noexcept {
   const int n = mesh_.n_sectors, within = point % n;
   return nodes_ ? point - within + (within - sectors + n) % n : point;
@@ -88,12 +88,12 @@ int ContactSolver::point_of(int material, int sectors) const noexcept {
 }
 
 void ContactSolver::forget_matrices() noexcept {
-  // With another spin other phases come: all but those of the step before.
+  // A new spin leads to other phases: keep only those of the previous step.
   if (nodes_) std::erase_if(phases_, [&](const Phase& phase) { return phase.used < steps_; });
   for (Phase& phase : phases_) phase.table->forget();
 }
 
-/// In the model's frame, as all velocities here.
+/// The result is in the model's frame, like all velocities here.
 Vec2 ContactSolver::material_velocity(const BodyState& body, const Points& points,
                                       int point) const {
   const ContactTable& t = *points.table;
@@ -102,7 +102,7 @@ Vec2 ContactSolver::material_velocity(const BodyState& body, const Points& point
          body.turn * t.at(point, *body.p);
 }
 
-/// What approaches the ground: a place that stands still in space, or the material.
+/// Velocity of what approaches the ground: of a point fixed in space, or of the material.
 Vec2 ContactSolver::opening(const BodyState& body, const Points& points, int point,
                             double spin) const {
   const ContactTable& t = *points.table;
@@ -121,7 +121,7 @@ void ContactSolver::find(const FreeStep& step, bool next) {
     const Vec2 x = step.end.center + turned * t.point(k);
     if (x.y - t.reach(k) * norm > top) continue;
     Vec2 place = x + turned * t.at(k, *step.end.q);
-    // A place stays in contact for ever, and its gap must not drift: the next one counts.
+    // A fixed point may remain in contact, and its gap must not drift: use the next gap.
     if (next) place += step.dt * opening(step.end, end_, k, step.spin);
     const contact::Touches touches = ground_.touches(place);
     if (touches.count > 0) points_.push_back(k);

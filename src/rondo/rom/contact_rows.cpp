@@ -40,7 +40,7 @@ MatrixXd hat_weights(int n_sectors, int stride) {
 
 namespace {
 
-/// The two neighbours of each of m points that stand in order around a closed boundary.
+/// The two neighbours of each of m points in order around a closed boundary.
 std::vector<std::array<int, 2>> beside_in_ring(int m) {
   std::vector<std::array<int, 2>> beside;
   for (int k = 0; k < m; ++k) beside.push_back({(k + m - 1) % m, (k + 1) % m});
@@ -62,7 +62,7 @@ std::vector<std::array<int, 2>> beside_in(const mesh::Mesh& mesh, const pod::Rin
   return beside;
 }
 
-/// Point k · phases + j is the place of sector k, j / phases of a sector further on.
+/// Point k · phases + j is the position j / phases of a sector after that of sector k.
 ContactRows rows_between(const mesh::Mesh& mesh, const ReducedModel& model) {
   const Index n = mesh.n_sectors, phases = model.weights.cols() / n;
   NodeRows nodes(mesh, model);
@@ -93,7 +93,7 @@ ContactRows standing_rows(const mesh::Mesh& mesh, const ReducedModel& model) {
   const auto points = static_cast<std::size_t>(model.weights.cols());
   ContactRows out{MatrixXd::Zero(2 * model.weights.cols(), model.size()), std::vector<Vec2>(points),
                   std::vector<double>(points), beside_in_ring(static_cast<int>(points))};
-  // A place that k points have a part in counts for each of them with its part.
+  // A sector that contributes to k points counts in each of them with its part.
   const Eigen::VectorXd all = model.weights.rowwise().sum();
   for (std::size_t k = 0; k < points; ++k)
     for (int sector = 0; sector < mesh.n_sectors; ++sector) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What contact of reduced steps goes on with (saved_reduced.hpp).
+/// Saves and restores the contact of reduced steps (saved_reduced.hpp).
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -13,7 +13,7 @@ Vec2 times(const RowMatrix& rows, int k, const VectorXd& coefficients) {
   return {rows.row(row).dot(coefficients), rows.row(row + 1).dot(coefficients)};
 }
 
-/// rate · J of each pair of rows, added to `to`.
+/// Adds rate · J of each pair of rows to `to`.
 void add_turned(double rate, const MatrixXd& rows, Eigen::Ref<MatrixXd> to) {
   for (Index k = 0; k < rows.rows(); k += 2) {
     to.row(k) -= rate * rows.row(k + 1);
@@ -95,7 +95,7 @@ void ContactTable::prepare(std::span<const int> points, const StepMatrices& matr
   dq_.middleCols(old, fresh) = dq;
   dp_.middleCols(old, fresh) = dp;
   const double spin = matrices.key().carry;
-  // All rows at what is new, then the new rows at what was there.
+  // Fill all rows of the new columns, then the new rows of the old columns.
   const auto fill = [&](Index row, Index rows, Index column, Index columns) {
     if (rows == 0 || columns == 0) return;
     const auto h = slot_rows_.middleRows(row, rows);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Contact points at one phase of the disk, and the Delassus blocks between those of them
-/// that have been needed (docs/reduced.md, 5).
+/// @file  Contact points at one phase of the disk, and the Delassus blocks between those points for
+/// which they were needed (docs/reduced.md, 5).
 #pragma once
 #include <array>
 #include <span>
@@ -11,45 +11,45 @@
 
 namespace rondo::rom {
 
-/// Law's velocities at a point from a unit impulse at another, both along x and y of the model's
-/// frame (R.4).
+/// Velocities in the law at a point from a unit impulse at another point, both along x and y of the
+/// model's frame (R.4).
 struct DelassusPair {
   Eigen::Matrix2d normal, tangential;  ///< [m/kg]
 };
 
-/// Rows one after another: what is read is a row at a time.
+/// Row-major, because it is read row by row.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 class ContactTable {
  public:
-  /// @param carried (2m, r) H D, of points that stand still in space: the law sees them approach
-  /// the ground as places; empty: points that move with the material
+  /// @param carried (2m, r) H D, of points fixed in space, whose approach to the ground is that of
+  /// fixed places; empty: points that move with the material
   ContactTable(const rom::ContactRows& rows, const MatrixXd& carried);
 
   [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
   [[nodiscard]] Vec2 point(int k) const noexcept { return points_[static_cast<std::size_t>(k)]; }
-  /// Length of boundary that a point stands for, as it is deformed: stretched like the way to the
-  /// points beside it. @param q (r) displacement [m]
+  /// Length of deformed boundary that belongs to a point: stretched like the distance to the
+  /// adjacent points. @param q (r) displacement [m]
   [[nodiscard]] double length(int k, const VectorXd& q) const;
   /// Norm of the rows: |H q| <= reach |q|.
   [[nodiscard]] double reach(int k) const noexcept { return reach_[static_cast<std::size_t>(k)]; }
   /// H at a point, times coefficients (r).
   [[nodiscard]] Vec2 at(int k, const VectorXd& coefficients) const;
-  /// H D likewise. @pre stands_still()
+  /// H D at a point, times coefficients (r). @pre stands_still()
   [[nodiscard]] Vec2 carried(int k, const VectorXd& coefficients) const;
   [[nodiscard]] bool stands_still() const noexcept { return carried_.size() > 0; }
   /// push += Hᵀ r
   void add_push(int k, Vec2 impulse, VectorXd& push) const;
 
-  /// Makes the blocks between all these points, where they are not there yet.
+  /// Computes the blocks between all these points that do not exist yet.
   void prepare(std::span<const int> points, const StepMatrices& matrices);
   /// @pre both points were prepared
   [[nodiscard]] DelassusPair pair(int at, int from) const noexcept;
-  /// Forgets all blocks: they were of other matrices.
+  /// Forgets all blocks, because they belong to other matrices.
   void forget() noexcept;
-  /// The points of each prepare() since then that made blocks.
+  /// The points of each prepare() since the last forget() that added blocks.
   [[nodiscard]] std::vector<std::vector<int>> portions() const;
-  /// [bytes] with blocks between `points` points.
+  /// Memory with blocks between `points` points [bytes].
   [[nodiscard]] static double bytes(std::size_t m, Index modes, std::size_t points) noexcept;
 
  private:
@@ -60,12 +60,12 @@ class ContactTable {
   std::vector<double> share_;               ///< (m) undeformed
   std::vector<std::array<int, 2>> beside_;  ///< (m)
   std::vector<double> reach_;               ///< (m)
-  std::vector<int> slot_;                   ///< (m) -1: not there
+  std::vector<int> slot_;                   ///< (m) -1: none
   std::vector<int> known_;                  ///< points in the order of the slots
-  std::vector<std::size_t> portion_ends_;   ///< in known_, of each prepare() that added some
+  std::vector<std::size_t> portion_ends_;   ///< ends, in known_, of each prepare() that added some
   RowMatrix slot_rows_, slot_carried_;      ///< (2 slots, r)
   MatrixXd dq_, dp_;                        ///< (r, 2 slots) at the end of the step
-  MatrixXd normal_, tangential_;  ///< (2 slots, 2 slots); tangential_ empty: the same as normal_
+  MatrixXd normal_, tangential_;  ///< (2 slots, 2 slots); tangential_ empty: same as normal_
 };
 
 }  // namespace rondo::rom

@@ -55,7 +55,7 @@ ReducedIntegrator::ReducedIntegrator(const IntegratorInput& input, const dynamic
 
 ReducedIntegrator::~ReducedIntegrator() = default;
 
-/// Half a push at t = 0: the velocity is that of half steps from there on.
+/// Applies half a push at t = 0: from then on the velocity is that of half steps.
 void ReducedIntegrator::start_central() {
   const dynamics::Motion& of = input_.model.motion;
   const dynamics::FrameStep f = dynamics::frame_step(of, 0, input_.model.dt);
@@ -157,8 +157,8 @@ void ReducedIntegrator::solve_contact(const Motion& m, ContactReport& report) {
                 {m.angle_before, m.center_before, m.velocity_before, rate, one, &q_, &p_},
                 {m.angle, m.center, m.velocity, rate, one, &q_end_, &p_end_}};
   if (input_.scheme == StepScheme::central) {
-    // The end of the step is known before its impulses: they act from there on, and the law sees
-    // the steps that come and that came.
+    // The end of the step is known before its impulses. They act from there on, and the law uses
+    // the velocities of the next and the previous step.
     const Complex back = rotation_minus_one(-m.carry * m.dt), on = rotation_minus_one(m.turn);
     free.before = {m.angle,    m.center, m.velocity_before, -(back / m.dt),
                    one + back, &q_end_,  &carried_};
@@ -206,7 +206,7 @@ void ReducedIntegrator::find_middle() {
   p_mid_ = 0.5 * (carried_ + p_end_);
 }
 
-/// Works are those of the velocity that the ledger is in: the mean of before and after the push.
+/// Works use the velocity of the ledger: the mean of those before and after the push.
 void ReducedIntegrator::count_contacts(const Motion& m, const Carrier& carrier,
                                        ContactReport& report) {
   const Complex turned = contact_->frame_rotation(m.angle);
@@ -230,8 +230,8 @@ void ReducedIntegrator::count_contacts(const Motion& m, const Carrier& carrier,
   }
 }
 
-/// Of the state between two steps. The strain energy of central differences is ½ q·K q one step
-/// on, which is what they keep.
+/// Energy of the state between two steps. The strain energy of central differences, which they
+/// conserve, is ½ q·K q one step later.
 dynamics::StepEnergy ReducedIntegrator::energy() {
   dynamics::StepEnergy e;
   other_ = q_;
@@ -265,7 +265,7 @@ void ReducedIntegrator::balance(const Motion& m, StepReport& report) {
   w.dissipation_mass = m.dt * model.mass_damping * p_mid_.squaredNorm();
   multiply(rm.stiffness, central ? carried_ : p_mid_, work_);
   w.dissipation_stiffness = m.dt * model.stiffness_damping * p_mid_.dot(work_);
-  // What carrying the fields does to the strain energy: nothing, had the modes K D skew.
+  // Work of carrying the fields on the strain energy; it is zero if the modes make K D skew.
   if (central) {
     multiply(rm.stiffness, q_end_, work_);
     other_ = q_end_ - m.dt * carried_;
@@ -297,7 +297,7 @@ void ReducedIntegrator::fill_contacts(double angle,
     a.status = c.status;
     active.push_back(a);
   };
-  // A place that stands still lies between two nodes: each gets its share, so that the sum stays.
+  // A point fixed in space lies between two nodes, which share its impulse; the sum is unchanged.
   const double sectors_back = angle / (2.0 * std::numbers::pi) * n;
   const auto whole = static_cast<long long>(std::floor(sectors_back));
   const double part = sectors_back - static_cast<double>(whole);
@@ -315,7 +315,7 @@ void ReducedIntegrator::fill_contacts(double angle,
       if (part > 0.0) add(within(sector - whole - 1), weight * part, c);
     }
   }
-  // One of each node and facet.
+  // Combine entries of the same node and facet.
   const auto before = [](const auto& a, const auto& b) {
     return a.candidate != b.candidate ? a.candidate < b.candidate : a.normal.x < b.normal.x;
   };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The reduced step on a rim that moves by itself (docs/reduced.md, 12).
+/// The reduced step with a free rim (docs/reduced.md, 12).
 #include <chrono>
 
 #include "rondo/pod/dense.hpp"
@@ -75,7 +75,7 @@ void ReducedIntegrator::press_on_rim(ContactReport& report) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// The balance (R.9): all energies are absolute, and the rim's own is one of them.
+/// The balance (R.9): all energies are absolute, and include that of the rim.
 void ReducedIntegrator::balance_on_rim(StepReport& report) {
   const ReducedModel& rm = input_.reduced;
   const dynamics::Model& model = input_.model;

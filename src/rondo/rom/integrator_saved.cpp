@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a reduced run goes on with (saved_reduced.hpp).
+/// Saves and restores a reduced run (saved_reduced.hpp).
 #include <algorithm>
 
 #include "rondo/core/contract.hpp"

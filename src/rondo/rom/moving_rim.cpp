@@ -14,14 +14,14 @@ using pod::multiply;
 
 namespace {
 
-/// A brake may miss what it holds by round-off of the contacts.
+/// Relative error of the force that a brake holds, due to round-off of the contacts.
 constexpr double brake_slack = 1e-9;
 
 double mean(const dynamics::Table& table, double from, double length) {
   return table.integral(from, length) / length;
 }
 
-/// ċ and s as the tables say.
+/// ċ and s according to the tables.
 RimVector given(const dynamics::Motion& motion, double t) {
   return {motion.speed.at(t), motion.height.slope(t), -motion.angular_velocity.at(t)};
 }
@@ -89,7 +89,7 @@ void MovingRim::use(const StepMatrices& matrices) {
   }
 }
 
-/// B, C and D of (R.8), as if all were free.
+/// B, C and D of (R.8), as if all components were free.
 void MovingRim::set_lines(const StepMatrices& matrices) {
   const ReducedModel& m = reduced_;
   const double h = 0.5 * model_.dt;
@@ -114,7 +114,7 @@ void MovingRim::set_lines(const StepMatrices& matrices) {
       rim_.inertia + body_.inertia + 2.0 * m.reference.dot(q_arm_) + q_arm_.squaredNorm();
 }
 
-/// What is held, the spin under a brake that locks with it.
+/// Constrains prescribed components, and the spin if a brake locks it.
 void MovingRim::hold(const StepMatrices& matrices) {
   MatrixXd back = back_;
   Eigen::Matrix3d d = mass_;
@@ -133,7 +133,7 @@ void MovingRim::hold(const StepMatrices& matrices) {
   for (std::size_t k = 0; k < 3; ++k) response_.back[k] = back.col(static_cast<Index>(k));
 }
 
-/// Right sides of (R.8) of what is known at the beginning of the step.
+/// Parts of the right sides of (R.8) that are known at the beginning of the step.
 void MovingRim::set_known(const StepMatrices& matrices, const VectorXd& q, const VectorXd& p) {
   const ReducedModel& m = reduced_;
   const double h = 0.5 * model_.dt;
@@ -169,7 +169,7 @@ void MovingRim::try_step(StepMatrices& matrices, const VectorXd& q, const Vector
   work_ = 0.5 * (p + p_end);
   for (Index k = 0; k < 3; ++k)
     right[k] = response_.free[k] != 0.0 ? right[k] : 0.5 * (now_[k] + end_[k]);
-  // p̄ without the rim is A⁻¹ of its right side; C of it what the held lines do not see.
+  // p̄ without the rim is A⁻¹ of its right side; C times it enters equations of free components.
   for (Index k = 0; k < 3; ++k)
     if (response_.free[k] != 0.0) right[k] -= back_.col(k).dot(work_);
   const RimVector mean_velocity = response_.inverse * right;
@@ -195,7 +195,7 @@ void MovingRim::push(StepMatrices& matrices, const VectorXd& modes, const RimVec
     if (response_.free[k] != 0.0) end_[k] += z[k];
 }
 
-/// What the lines of the rim lack: mean forces that hold it, or brake it.
+/// Residual of the rim's equations: mean forces that constrain it or brake it.
 RimVector MovingRim::reaction(const VectorXd& p_mid) const {
   return (mass_ * velocity_mean() + back_.transpose() * p_mid - known_ - 0.5 * direct_) /
          (0.5 * model_.dt);
@@ -263,7 +263,7 @@ void MovingRim::add_works(const RimVector& v, const RimVector& force, const Vect
       dt * (rim_.support_x.damping * c[0] * c[0] + rim_.support_y.damping * c[1] * c[1]);
 }
 
-/// What s_A and q_A leave, and what they left in the step before (R.9).
+/// Work of the errors of s_A and q_A, and of those of the previous step (R.9).
 double MovingRim::scheme_work(const VectorXd& q, const VectorXd& p, const VectorXd& q_end,
                               const VectorXd& p_end) {
   const ReducedModel& m = reduced_;

@@ -20,7 +20,7 @@ std::span<Vec2> as_field(double* numbers, Index rows) {
   return {reinterpret_cast<Vec2*>(numbers), static_cast<std::size_t>(rows / 2)};
 }
 
-/// A field in the order of the rings, changed there, and put back.
+/// Reorders a field ring by ring, calls the function, and restores the order.
 template <class Change>
 void in_rings(const pod::Rings& rings, std::span<Vec2> field, std::vector<Vec2>& ordered,
               Change&& change) {
@@ -35,7 +35,7 @@ MatrixXd skew_part(const MatrixXd& a) {
   return 0.5 * (a - a.transpose());
 }
 
-/// A uniform field, or that of the nodes' places, each column √M times it.
+/// A uniform field or the positions of the nodes, each column multiplied by √M.
 VectorXd weighted_field(std::span<const Vec2> field, const VectorXd& roots) {
   VectorXd out(roots.size());
   for (Index i = 0; i < out.size() / 2; ++i) {
@@ -89,7 +89,7 @@ MatrixXd join(std::span<const MatrixXd> parts, double dependent) {
         v -= q.leftCols(rank) * (q.leftCols(rank).transpose() * v);
       const double left = v.norm();
       if (!(left > dependent * norm)) continue;
-      v /= left;  // once more: what was nearly in the span of the others is not yet orthogonal
+      v /= left;  // again: a vector nearly in the span of the others is not yet orthogonal
       v -= q.leftCols(rank) * (q.leftCols(rank).transpose() * v);
       q.col(rank++) = v / v.norm();
     }
@@ -151,7 +151,7 @@ Lift::Lift(const MatrixXd& basis, ModelFrame frame, pod::Rings rings)
       field_(basis.rows()) {}
 
 void Lift::lift(double theta, const VectorXd& q, std::span<Vec2> out) {
-  // The library knows the processor: this product is most of what a snapshot costs.
+  // By the library, which adapts to the processor: this product is most of the cost of a snapshot.
   const OneBlasThread one;
   pod::multiply(basis_, q, field_);
   const std::span<Vec2> rectified = as_field(field_.data(), field_.size());

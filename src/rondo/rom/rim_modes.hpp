@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What of a reduced body a rim feels that moves by itself: its rigid motions beside the
-/// modes (docs/reduced.md, 12). Made from the modes: model files hold nothing of it.
+/// @file  Coupling of a reduced body with a free rim: its rigid motions in addition to the modes
+/// (docs/reduced.md, 12). Computed from the modes; model files do not contain it.
 #pragma once
 #include <Eigen/Core>
 #include <span>
@@ -15,9 +15,9 @@ struct ReducedModel;
 struct RimModes {
   double mass = 0.0;     ///< m = Σ m                                                    [kg/m]
   double inertia = 0.0;  ///< Σ m |X|²                                                   [kg·m]
-  Eigen::MatrixXd carry;  ///< (r, r) D̃ = ½(D + K⁻¹D K): K D̃ is skew, carrying takes no energy
+  Eigen::MatrixXd carry;  ///< (r, r) D̃ = ½(D + K⁻¹D K): K D̃ is skew, so carrying takes no energy
   Eigen::MatrixXd turned_carry;  ///< (r, r) J D̃
-  Eigen::MatrixXd carried_turn;  ///< (r, r) G = ΦᵀM𝒟JΦ, symmetric to the last bit
+  Eigen::MatrixXd carried_turn;  ///< (r, r) G = ΦᵀM𝒟JΦ, bitwise symmetric
 };
 
 /// @param mass (n) lumped, of all nodes. @pre the rectified frame; Φ is 0 on mesh.clamped

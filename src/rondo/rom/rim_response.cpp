@@ -39,7 +39,7 @@ PointResponse point_response(const RimResponse& rim, const ContactTable& table, 
   }
   out.tangential = whole - slid;
   out.normal = whole - moved;
-  if (table.stands_still()) out.normal.col(2) = -moved.col(2);  // a place does not turn
+  if (table.stands_still()) out.normal.col(2) = -moved.col(2);  // a fixed point does not turn
   const Rows direct = rigid(push_arm) * rim.free.asDiagonal();
   out.push = rim.inverse * (direct - felt).transpose();
   return out;

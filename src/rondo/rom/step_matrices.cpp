@@ -22,7 +22,7 @@ MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
   return c;
 }
 
-/// L = K - s² + ṡJ; with a rim that moves by itself K + s² J D̃.
+/// L = K - s² + ṡJ; with a free rim K + s² J D̃.
 MatrixXd restoring(const rom::ReducedModel& m, const StepMatrixKey& k) {
   if (k.moving_rim) return m.stiffness + k.spin * k.spin * m.rim->turned_carry;
   MatrixXd l = m.stiffness + k.spin_rate * m.turn;
@@ -30,7 +30,7 @@ MatrixXd restoring(const rom::ReducedModel& m, const StepMatrixKey& k) {
   return l;
 }
 
-/// N = (I - Δt/2 s D)⁻¹; D = 0 is common: nothing is carried in the turning frame.
+/// N = (I - Δt/2 s D)⁻¹; D = 0 is common, because nothing is carried in the rotating frame.
 MatrixXd carrying(const rom::ReducedModel& m, const StepMatrixKey& k) {
   const MatrixXd unit = MatrixXd::Identity(m.size(), m.size());
   if (m.frame == rom::ModelFrame::turning || k.carry == 0.0) return unit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The step of the reduced equations at one spin, as dense matrices: implicit midpoint rule
+/// @file  The step of the reduced equations at one spin as dense matrices: implicit midpoint rule
 /// or explicit central differences (docs/reduced.md, 4).
 #pragma once
 #include <Eigen/Core>
@@ -13,51 +13,51 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 enum class StepScheme {
-  midpoint,  ///< implicit, no limit of stability; q and p both at whole steps
+  midpoint,  ///< implicit, unconditionally stable; q and p both at whole steps
   central,   ///< explicit central differences; p at half steps
 };
 
-/// What the matrices hang on.
+/// The parameters on which the matrices depend.
 struct StepMatrixKey {
   StepScheme scheme = StepScheme::midpoint;
   double dt = 0.0;                 ///< Δt                                              [s]
   double mass_damping = 0.0;       ///< α                                               [1/s]
   double stiffness_damping = 0.0;  ///< β                                               [s]
   double carry = 0.0;      ///< s, counter-clockwise, mean over the step: carries the fields [rad/s]
-  double spin = 0.0;       ///< s of the velocity's equation; midpoint: the same        [rad/s]
+  double spin = 0.0;       ///< s in the velocity equation; midpoint: the same as carry      [rad/s]
   double spin_rate = 0.0;  ///< ṡ                                                       [rad/s2]
-  bool moving_rim = false;  ///< L = K + s² J D̃, D̃ of RimModes: the rim's spin is an unknown beside
-                            ///< the modes (R.7)
+  bool moving_rim = false;  ///< L = K + s² J D̃, D̃ of RimModes: the spin of the rim is an
+                            ///< additional unknown (R.7)
 
   bool operator==(const StepMatrixKey&) const = default;
 };
 
-/// Δt_c of central differences on these modes [s]. @param stiffness_damping β [s]
+/// Δt_c of central differences with these modes [s]. @param stiffness_damping β [s]
 double critical_step(const rom::ReducedModel& model, double stiffness_damping);
 
 class StepMatrices {
  public:
-  /// The model must outlive it. Copies of its matrices times those of the step: O(r³).
+  /// The model must outlive it. Multiplies copies of its matrices: O(r³).
   StepMatrices(const rom::ReducedModel& model, const StepMatrixKey& key);
 
   [[nodiscard]] const StepMatrixKey& key() const noexcept { return key_; }
-  /// A⁻¹: change of p at the end of a step from a push on the modes.
+  /// A⁻¹: change of p at the end of a step due to a push on the modes.
   [[nodiscard]] const MatrixXd& push_inverse() const noexcept { return push_; }
   /// N; central: R = 2N - 1
   [[nodiscard]] const MatrixXd& carry() const noexcept { return carry_; }
 
   /// A step without contact. In: q, p (r) at its beginning, push (r) Δt F. Out: q and p at its end,
-  /// and `carried`, p before the push: p itself, with `central` moved to the end. Allocates
+  /// and `carried`, p before the push: p itself; with `central`, moved to the end. Allocates
   /// nothing.
   void advance(const VectorXd& q, const VectorXd& p, const VectorXd& push, VectorXd& q_end,
                VectorXd& p_end, VectorXd& carried);
 
-  /// Velocity alone, of `central`: from p at the time of q to half a step later.
+  /// For `central`, the velocity alone: from p at the time of q to p half a step later.
   void kick(const VectorXd& q, const VectorXd& p, const VectorXd& push, VectorXd& p_end);
 
-  /// How the end of the step changes with impulses: pushes (r, k) on the modes -> dq, dp (r, k).
+  /// Response at the end of the step to impulses: pushes (r, k) on the modes -> dq, dp (r, k).
   void respond(const MatrixXd& pushes, MatrixXd& dq, MatrixXd& dp) const;
-  /// The same of one, added to q and p. Allocates nothing.
+  /// Adds the response to a single push to q and p. Allocates nothing.
   void add_response(const VectorXd& push, VectorXd& q, VectorXd& p);
 
  private:
@@ -66,9 +66,9 @@ class StepMatrices {
 
   StepMatrixKey key_;
   MatrixXd carry_;   ///< (r, r) N = (I - Δt/2 s D)⁻¹; central: R = 2N - I, which turns by sΔt
-  MatrixXd push_;    ///< (r, r) change of p at the end from a push on the modes          (R.3)
+  MatrixXd push_;    ///< (r, r) change of p at the end due to a push on the modes       (R.3)
   MatrixXd from_q_;  ///< (r, r) midpoint: Δt/2 L N, L = K - s² + ṡJ; central: -Δt push_ L
-  MatrixXd from_p_;  ///< (r, r) central: of p at the end from that at its beginning
+  MatrixXd from_p_;  ///< (r, r) central: p at the end from p at the beginning
   VectorXd work_, other_;  ///< (r)
 };
 

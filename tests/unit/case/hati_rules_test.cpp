@@ -67,7 +67,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "no load except the ground"},
         Refused{"Bodies", "contact.between=bodies", "contact.between", "with the ground"},
         Refused{"Implicit", "solver.implicit=[{layers = [1]}]", "solver.implicit[0]",
-                "all that are not fine"},
+                "all elements that are not fine"},
         Refused{"Cyclic", "solver.operator=cyclic", "solver.operator", "step of its own"},
         Refused{"Region", "solver.hati.fine={region = 'skin'}", "solver.hati.fine.region",
                 "no physical surfaces"},

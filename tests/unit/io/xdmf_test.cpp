@@ -36,6 +36,35 @@ TEST(Xdmf, IsValidAfterEveryGrid) {
   EXPECT_EQ(xdmf.size(), 5U);
 }
 
+std::size_t n_grids(const std::string& text) {
+  std::size_t n = 0;
+  for (auto at = text.find("<Time"); at != std::string::npos; at = text.find("<Time", at + 1)) ++n;
+  return n;
+}
+
+/// A process that is killed leaves the file that was there last, with most of the grids.
+TEST(Xdmf, ALongSeriesIsListedInPartsAndInWholeAtTheEnd) {
+  const Folder folder;
+  const auto file = folder / "fields.xdmf";
+  {
+    Xdmf xdmf(file, series());
+    std::size_t written = 0;
+    for (std::size_t k = 1; k <= 200; ++k) {
+      xdmf.add(static_cast<double>(k));
+      const std::size_t listed = n_grids(text_of(file));
+      ASSERT_LE(k - listed, k / 16) << k;
+      written += listed == k ? 1 : 0;
+    }
+    EXPECT_LT(written, 60U);
+  }
+  EXPECT_EQ(n_grids(text_of(file)), 200U);
+  EXPECT_TRUE(is_well_formed(text_of(file)));
+  Xdmf closed(file, series());
+  closed.add(0.0);
+  closed.close();
+  EXPECT_EQ(n_grids(text_of(file)), 1U);
+}
+
 TEST(Xdmf, SlabsNameTimesNodesAndComponents) {
   const Folder folder;
   Xdmf xdmf(folder / "fields.xdmf", series());

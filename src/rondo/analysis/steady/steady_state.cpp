@@ -122,7 +122,7 @@ double SteadyState<D>::slip_ratio() const noexcept {
 }
 
 template <int D>
-SteadyState<D>::Where SteadyState<D>::where(std::size_t pair) const {
+typename SteadyState<D>::Where SteadyState<D>::where(std::size_t pair) const {
   const statics::RollingPair& p = window_.pairs()[pair];
   const statics::RollingHarmonics<D>& h = window_.harmonics();
   const int samples = h.body().samples, place = wrapped(sense() * p.sample, samples);

@@ -11,7 +11,7 @@ namespace {
 
 namespace has = dynamics::has;
 
-/// Sharp convex corners may touch between two nodes.
+/// Sharp convex corners may touch the body between two nodes.
 bool has_sharp_corners(const Case& c) {
   return c.ground && c.ground->shape.fillet == 0.0 &&
          contact::shape_faults(c.ground->shape).empty() &&
@@ -22,7 +22,7 @@ bool has_slip_or_camber(const Case& c) {
   return is_solid(c) && (c.motion.camber != 0.0 || c.motion.slip_angle.largest() != 0.0);
 }
 
-/// Of a feature with two rows the last one is also that of the model alone.
+/// If a feature has two rows, the last one also applies to a feature known only from the model.
 constexpr std::array rows{
     CaseFeature{has::three_dimensions, "section", "a [disk] without disk.width",
                 [](const Case& c) { return c.section.has_value(); }},

@@ -55,7 +55,7 @@ std::size_t after_digits(std::string_view text, std::size_t at) {
   return std::min(text.find_first_not_of("0123456789", at), text.size());
 }
 
-/// Finds a number that is written with a comma instead of the point, or with D instead of E.
+/// Finds a number with a decimal comma, or with D instead of E.
 std::string foreign_number(std::string_view text) {
   std::string right(text);
   std::size_t at = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
@@ -82,10 +82,10 @@ std::string foreign_number(std::string_view text) {
                      comma ? "a decimal comma" : "an exponent with D, as Fortran writes it", right);
 }
 
-/// Without strings, and up to a comment.
+/// The line without its strings and its comment.
 std::string bare(std::string_view line) {
   std::string text;
-  char quote = '\0';  // of the string that this is in
+  char quote = '\0';  // delimiter of the current string
   for (std::size_t k = 0; k < line.size(); ++k) {
     const char c = line[k];
     if (quote == '\0' && c == '#') break;
@@ -130,7 +130,7 @@ std::string cause_in_items(std::string_view written) {
   return {};
 }
 
-/// In an array a comma divides items, as it may.
+/// In an array, a comma between digits may simply separate items.
 std::string foreign_writing_in_line(std::string_view line) {
   const std::string text = bare(line);
   std::string found = lookalike_in(text);

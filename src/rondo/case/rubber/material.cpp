@@ -6,7 +6,7 @@
 namespace rondo::study {
 namespace {
 
-/// The coefficients of its model, all others 0.
+/// The coefficients of its model; all others are 0.
 fem::Rubber law_of(const MaterialLaw& law) {
   fem::Rubber r;
   const MaterialModel model = law.model;

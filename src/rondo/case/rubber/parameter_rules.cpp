@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Rules between the parameters of a material: those of its model, each once, and stable.
+/// Rules between the parameters of a material: exactly those of its model, and stable.
 #include <fmt/format.h>
 
 #include <array>
@@ -16,8 +16,8 @@ using enum MaterialModel;
 
 struct ModelWords {
   std::string_view name;
-  std::string_view parameters;  ///< as they are listed where one is not among them
-  std::string_view about;       ///< the parameter that stability hangs on
+  std::string_view parameters;  ///< the list given for a parameter that is not in it
+  std::string_view about;       ///< the parameter on which stability depends
 };
 
 constexpr const char* bulk = "bulk_modulus or poissons_ratio";
@@ -39,11 +39,11 @@ std::string parameters_of(MaterialModel model) {
   return model == linear ? std::string(own) : fmt::format("{}, and {}", own, bulk);
 }
 
-/// A parameter, and the models that have it.
+/// A parameter and the models that use it.
 struct Parameter {
   std::string_view leaf;
   std::array<bool, std::size(models)> of;
-  bool is_needed = true;  ///< by each of them
+  bool is_needed = true;  ///< required by each of them
 };
 
 constexpr Parameter parameters[] = {
@@ -134,8 +134,8 @@ bool has_exponents(CaseValues& in, const Described& d) {
   return true;
 }
 
-/// Neither softer than a body whose sides do not move when it is stretched, nor stiffer than
-/// numbers tell from incompressible.
+/// κ must be at least that of ν = 0, at which the sides of a stretched body do not move, and not so
+/// large that double precision cannot distinguish it from incompressible.
 void check_volume(CaseValues& in, const Described& d, double mu) {
   constexpr double most = 1e7;  // shear moduli: 1 - 2ν is known to 1e-9
   const double kappa = d.material.rubber->bulk_modulus;
@@ -157,7 +157,7 @@ void check_volume(CaseValues& in, const Described& d, double mu) {
              "with the root");
 }
 
-/// Along the tests that laws are fitted to; a law may be that of a fit far beyond its data.
+/// Checks the three tests used to fit laws; a fitted law may be unstable far beyond its data.
 void check_stability(CaseValues& in, const Described& d) {
   const double mu = shear_modulus_of(d.law);
   const std::string key = d.key(words_of(d.law.model).about);
@@ -199,7 +199,7 @@ void check_described(CaseValues& in, const Described& d) {
     fill_material(d.law, d.material);
 }
 
-/// What it leaves out is that of [material] if that is of the same model.
+/// Missing parameters are those of [material] if that has the same model.
 void complete_region(CaseValues& in, const Case& c, MaterialRegion& region, const Described& d) {
   MaterialLaw& law = region.law;
   const bool has_ratio = in.has(d.key("poissons_ratio")), has_bulk = in.has(d.key("bulk_modulus"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The start of rubber, and the default of its steps (docs/rubber.md).
+/// Rules of the start of rubber, and the default of its step size (docs/rubber.md).
 #include "rondo/case/case_rules.hpp"
 
 namespace rondo::study {

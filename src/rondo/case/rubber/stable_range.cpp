@@ -6,7 +6,7 @@
 namespace rondo::study {
 namespace {
 
-/// Of f(λ) = λ₁^q + λ₂^q + λ₃^q: I₁ - 3 by q = 2, I₂ - 3 of what is incompressible by q = -2.
+/// f(λ) = λ₁^q + λ₂^q + λ₃^q - 3: I₁ - 3 for q = 2, the incompressible I₂ - 3 for q = -2.
 struct PowerSum {
   double value = -3.0, slope = 0.0, curvature = 0.0;
 };
@@ -24,7 +24,7 @@ PowerSum power_sum(double q, const double (&powers)[3], double stretch) noexcept
 
 struct Test {
   std::string_view name;
-  double powers[3];  ///< of the stretch: the three principal ones
+  double powers[3];  ///< exponents of the three principal stretches
 };
 
 constexpr Test tests[] = {{"uniaxial", {1.0, -0.5, -0.5}},
@@ -49,7 +49,7 @@ double stress_slope(const fem::Rubber& r, const double (&powers)[3], double stre
 std::optional<Unstable> find_unstable(const fem::Rubber& rubber) {
   constexpr int parts = 200;
   const double ends[] = {std::log(largest_stretch), std::log(least_stretch)};
-  for (int k = 0; k <= parts; ++k)  // outwards from 1
+  for (int k = 0; k <= parts; ++k)  // outwards from stretch 1
     for (const Test& test : tests)
       for (const double end : ends) {
         const double stretch = std::exp(end * k / parts);

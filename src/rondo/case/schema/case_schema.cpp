@@ -35,7 +35,7 @@ Json without_repeats(Json array) {
   return array;
 }
 
-/// By its type alone.
+/// The schema of a value by its type alone.
 Json value_schema(const CaseKey& key) {
   const Range& range = key.allowed.range;
   switch (type_of(key)) {
@@ -73,7 +73,7 @@ std::string description_of(const CaseKey& key) {
   return text + fmt::format("Allowed: {}. Default: {}.", allowed_text(key), default_text(key));
 }
 
-/// Null: it has none, or words stand for it.
+/// Null: the key has no default, or its default is described in words.
 Json default_of(const CaseKey& key) {
   if (key.use.required || !key.use.standard.empty()) return {};
   const TomlShape flat{"a default", [](std::string_view) { return false; },
@@ -82,7 +82,7 @@ Json default_of(const CaseKey& key) {
   return json_of(load_toml_text(std::string(key.path), text, flat).values.at("v"));
 }
 
-/// The analyses that a key, given its table, is required in.
+/// The analyses that require the key when its table exists.
 unsigned kinds_that_require(const CaseKey& key) {
   const bool plain = key.use.when == static_cast<Use::Test>(always) &&
                      key.use.of_item == static_cast<Use::TestOfItem>(always);
@@ -98,7 +98,7 @@ bool is_body(const CaseTable& table) {
   return std::ranges::find(body_tables, table.path) != body_tables.end();
 }
 
-/// Its parts that are always there count as well as its keys.
+/// Adds the keys of the table, and its subtables that always exist, if they are required.
 void add_required(Json& schema, const CaseTable& table) {
   Json required = Json::array();
   for (const CaseKey& key : keys_of(table))
@@ -110,7 +110,7 @@ void add_required(Json& schema, const CaseTable& table) {
   outer["required"].push_back(leaf_of(table.path));
 }
 
-/// The case asks for one of these kinds of analysis.
+/// Matches a case that requests one of these kinds of analysis.
 Json kind_among(unsigned kinds) {
   Json given = presence_of("analysis.kind"), names = Json::array();
   const bool standard = ((kinds >> static_cast<unsigned>(Case{}.analysis.kind)) & 1U) != 0;
@@ -132,8 +132,8 @@ Json all_of(std::vector<Json> conditions) {
   return Json{{"allOf", std::move(conditions)}};
 }
 
-/// A key that some kinds require: of a table that may be left out, where it is there; of a list in
-/// each of its tables.
+/// The rule of a key that some kinds require. In an optional table it applies if the table exists,
+/// in a list to each of its tables.
 Json rule_that_requires(const CaseKey& key, unsigned kinds) {
   std::vector<Json> conditions{kind_among(kinds), Json{{"not", presence_of(key.path)}}};
   const CaseTable& table = table_with(key);
@@ -143,7 +143,7 @@ Json rule_that_requires(const CaseKey& key, unsigned kinds) {
       all_of(std::move(conditions)));
 }
 
-/// What some analyses require, and what is refused where only other analyses have a use for it.
+/// Adds what some analyses require, and what is refused because only other analyses use it.
 void add_rules_of_analyses(Json& rules) {
   std::map<unsigned, std::pair<std::string, Json>> of_others;
   for (const CaseKey& key : case_keys()) {
@@ -179,7 +179,7 @@ void add_rules_of_bodies(Json& rules) {
 Json schema_of(const CaseKey& key) {
   Json schema = value_schema(key);
   schema["description"] = description_of(key);
-  if (schema.contains("anyOf"))  // an editor shows that of the alternative at hand
+  if (schema.contains("anyOf"))  // an editor shows that of the selected alternative
     for (Json& one : schema["anyOf"]) one["description"] = schema["description"];
   if (Json standard = default_of(key); !standard.is_null()) schema["default"] = std::move(standard);
   return schema;

@@ -6,11 +6,11 @@
 
 namespace rondo::study {
 
-/// Types, bounds, choices, defaults, units and meanings of all keys; which are always required, and
-/// which an analysis asks for or refuses. Rules between keys beyond that are `rondo check`'s.
+/// Types, bounds, choices, defaults, units and meanings of all keys; keys that are always required,
+/// and those that an analysis requires or refuses. `rondo check` has all other rules.
 Json case_schema();
 
-/// What may stand at a key.
+/// The values that are allowed at a key.
 Json schema_of(const CaseKey& key);
 
 }  // namespace rondo::study

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// What a wheel in three dimensions is made of and what it does not go with, by the case alone
-/// (docs/wheel3d.md).
+/// Rules of the parts of a wheel in three dimensions and of combinations that it excludes, as far
+/// as the case shows them (docs/wheel3d.md).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::string_view wheel = "a wheel in three dimensions";
 
-/// Keys that a plane body has no use for.
+/// Keys that have no use for a plane body.
 void check_plane(CaseValues& in) {
-  if (in.has("disk.width") || in.has_table("section")) return;  // at fault
+  if (in.has("disk.width") || in.has_table("section")) return;  // has a fault
   for (const std::string_view key :
        {"disk.crown_radius", "disk.mesh.axial", "disk.tread.circumferential_grooves",
         "motion.slip_angle", "motion.camber"})
@@ -25,7 +25,7 @@ void check_plane(CaseValues& in) {
                 "disk.width beside it, which gives the disk a width; or a [section]");
 }
 
-/// Else the tread would be none.
+/// Grooves that cover the whole width would leave no tread.
 void check_lateral_grooves(CaseValues& in, const Case& c) {
   constexpr std::string_view key = "disk.tread.groove_columns";
   if (is_generated(c) && c.disk.tread && c.wheel.grooves.empty() && in.has(key) &&
@@ -46,7 +46,7 @@ void check_other_bodies(CaseValues& in) {
                fmt::format("[{}] or [section]", other));
 }
 
-/// Lines of nodes that numbers tell apart beside the radius.
+/// Lines of nodes must be distinct numbers at the size of the radius.
 void check_width(CaseValues& in, const Case& c) {
   if (!in.good({"disk.width", "disk.outer_radius", "disk.mesh.axial"})) return;
   const double least = 1e-9 * c.wheel.axial * c.disk.outer_radius;
@@ -84,7 +84,7 @@ bool is_in(const std::vector<std::array<double, 2>>& grooves, double z) {
   });
 }
 
-/// Something of the tread is left. @pre enough elements over the width
+/// Whether something of the tread is left. @pre enough elements over the width
 bool leaves_lands(const mesh::Wheel& w) {
   const std::vector<double> lines = mesh::axial_lines(w);
   for (std::size_t k = 1; k < lines.size(); ++k)
@@ -116,7 +116,7 @@ void check_grooves(CaseValues& in, const Case& c) {
     in.fault(key, "the grooves leave nothing of the tread", "lands between them");
 }
 
-/// The mesh must be numbered by int.
+/// The nodes of the mesh must be counted by int.
 void check_solid_size(CaseValues& in, const Case& c) {
   if (!in.good({"disk.mesh.radial", "disk.mesh.circumferential", "disk.mesh.axial",
                 "disk.tread.pitches", "disk.tread.land_columns", "disk.tread.groove_columns",
@@ -139,7 +139,7 @@ void check_body(CaseValues& in, const Case& c) {
   check_solid_size(in, c);
 }
 
-// What it does not go with ----------------------------------------------------------------------
+// Excluded combinations -------------------------------------------------------------------------
 
 void check_start(CaseValues& in, const Case& c) {
   if (c.initial.state == InitialState::steady_rolling)
@@ -153,7 +153,7 @@ void check_start(CaseValues& in, const Case& c) {
                        "no such key; initial.velocity sets it in motion");
 }
 
-/// What a rim that loads move does not go with: see integrators/solid/solid_rim.hpp.
+/// Combinations that a rim moved by loads excludes: see integrators/solid/solid_rim.hpp.
 void check_solid_rim(CaseValues& in, const Case& c) {
   if (!c.rim) return;
   if (c.rim->free_x && c.motion.slip_angle.largest() != 0.0)

@@ -14,7 +14,7 @@ namespace rondo {
 namespace {
 
 struct Listed {
-  std::atomic<pid_t> owner{0};  ///< 0: the place is free; -1: it is being filled
+  std::atomic<pid_t> owner{0};  ///< 0: the entry is free; -1: it is being filled
   std::array<char, PATH_MAX> path{};
 };
 static_assert(std::atomic<pid_t>::is_always_lock_free, "read in a signal handler");
@@ -23,7 +23,7 @@ std::array<Listed, 32>& places() noexcept {
   static std::array<Listed, 32> list;
   return list;
 }
-// Before a signal can come: a handler must not be the first to ask.
+// Created before a signal can arrive: a handler must not be the first to use it.
 [[maybe_unused]] const auto& made_at_start = places();
 
 }  // namespace
@@ -48,7 +48,7 @@ RemovedAtSignal::~RemovedAtSignal() {
 
 void remove_at_signal() noexcept {
   const pid_t own = ::getpid();
-  // Folders after the files in them.
+  // Folders are removed after the files in them.
   for (const bool folders : {false, true})
     for (const Listed& listed : places()) {
       if (listed.owner.load() != own) continue;

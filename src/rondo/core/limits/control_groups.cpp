@@ -8,7 +8,7 @@ namespace rondo {
 namespace fs = std::filesystem;
 namespace {
 
-/// "memory" in "cpu,memory".
+/// Whether a list such as "cpu,memory" contains "memory".
 bool names(const std::string& controllers, const std::string& controller) {
   std::istringstream list(controllers);
   for (std::string name; std::getline(list, name, ',');)

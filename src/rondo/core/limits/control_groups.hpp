@@ -7,9 +7,9 @@
 
 namespace rondo {
 
-/// Folders of the groups that a process is in for a controller, and of those above them: each may
-/// have files of limits. In a container the group's own path may not be seen, but the mount is that
-/// of the container.
+/// The folders of a controller's groups that a process is in, and of the groups above them; each
+/// may contain files of limits. In a container the group's own path may be invisible, but the mount
+/// point shows the group of the container.
 /// @param groups text of /proc/self/cgroup @param mount where they are seen, /sys/fs/cgroup
 /// @param controller "memory", "cpu"
 [[nodiscard]] std::vector<std::filesystem::path> control_group_folders(

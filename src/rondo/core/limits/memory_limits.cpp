@@ -16,14 +16,14 @@ namespace {
 
 constexpr std::size_t no_limit = std::numeric_limits<std::size_t>::max();
 
-/// "max", and what cannot be read, is no limit.
+/// "max" and text that cannot be read mean no limit.
 std::size_t limit_in(const fs::path& file) {
   std::ifstream in(file);
   std::size_t bytes = 0;
   return in >> bytes ? bytes : no_limit;
 }
 
-/// What this process has mapped, in all and as data [B]; 0 where that cannot be read.
+/// Memory mapped by this process, in total and as data [B]; 0 if that cannot be read.
 std::array<std::size_t, 2> mapped_memory() {
   std::ifstream in("/proc/self/statm");
   std::array<std::size_t, 6> pages{};  // size, resident, shared, text, library, data
@@ -34,8 +34,8 @@ std::array<std::size_t, 2> mapped_memory() {
   return {pages[0] * bytes, pages[5] * bytes};
 }
 
-/// What libraries will map besides, used or not: a buffer of OpenBLAS, 128 MiB, without which it
-/// waits for ever; the heap of the thread that writes, 128 MiB at its making; stacks of threads.
+/// Further memory that libraries will map, used or not: a buffer of OpenBLAS, 128 MiB, without
+/// which it waits for ever; the heap of the writing thread, 128 MiB when made; stacks of threads.
 constexpr std::size_t mapped_by_libraries = 320'000'000;
 
 std::size_t left_of(__rlimit_resource resource, std::size_t mapped) {

@@ -28,7 +28,7 @@ std::string_view next_word(std::string_view& text) {
   return word;
 }
 
-/// Processors of the affinity: the machine may have more than a cpu_set_t has places.
+/// Processors in the affinity mask. The machine may have more than a cpu_set_t can represent.
 int count_affinity() {
   for (int places = 1024; places <= 1 << 20; places *= 4) {
     const std::unique_ptr<cpu_set_t, void (*)(cpu_set_t*)> set(

@@ -4,7 +4,7 @@
 
 namespace {
 
-/// y ≈ a^(-1/3) to round-off, from a guess within 4 %: with r = 1 - a y³ the error goes as r⁴.
+/// y ≈ a^(-1/3) to round-off, from a guess within 4 %: with r = 1 - a y³ the error is O(r⁴).
 [[gnu::always_inline]] inline Pack inverse_cube_root(Pack a) noexcept {
   Pack y = cube_root_guess(a);
   for (int i = 0; i < 2; ++i) {

@@ -53,7 +53,7 @@ inline __m256d guess_of_four(__m256d a) noexcept {
   const __m128i guess = _mm_sub_epi32(_mm_set1_epi32(0x54a23400), _mm_cvtps_epi32(third));
   return _mm256_cvtps_pd(_mm_castsi128_ps(guess));
 }
-/// Guess of a^(-1/3): a third of the exponent, by the bits of a float.
+/// Guess of a^(-1/3): divides the exponent by three, using the bits of a float.
 inline Pack cube_root_guess(Pack x) noexcept {
   return {guess_of_four(x.a), guess_of_four(x.b)};
 }
@@ -62,18 +62,18 @@ inline __m256d first_of_four(int n, __m256d x, __m256d y) noexcept {
   const __m256i taken = _mm256_cmpgt_epi64(_mm256_set1_epi64x(n), lane);
   return _mm256_blendv_pd(y, x, _mm256_castsi256_pd(taken));
 }
-/// The first n lanes of x, the others of y.
+/// The first n lanes of x, the other lanes of y.
 inline Pack first_lanes(int n, Pack x, Pack y) noexcept {
   return {first_of_four(n, x.a, y.a), first_of_four(n - 4, x.b, y.b)};
 }
-/// Bit i is set where lane i of x <= y.
+/// Bit i is set if x <= y in lane i.
 inline unsigned not_above(Pack x, Pack y) noexcept {
   const int low = _mm256_movemask_pd(_mm256_cmp_pd(x.a, y.a, _CMP_LE_OQ));
   const int high = _mm256_movemask_pd(_mm256_cmp_pd(x.b, y.b, _CMP_LE_OQ));
   return static_cast<unsigned>(low | (high << 4));
 }
 
-/// N packs of sectors from u on, with the last and the next sector of each.
+/// Loads N packs of sectors from u on, with the values of the last and the next sectors.
 template <int N>
 inline void load_neighbours(const double* u, Pack* last, Pack* here, Pack* next) noexcept {
   for (int i = 0; i < N; ++i) {
@@ -83,7 +83,7 @@ inline void load_neighbours(const double* u, Pack* last, Pack* here, Pack* next)
   }
 }
 
-/// x and y of four vectors, one after the other (x, y).
+/// Loads x and y of four vectors stored one after the other (x, y).
 inline void load_four_pairs(const double* p, __m256d& x, __m256d& y) noexcept {
   const __m256d a = _mm256_loadu_pd(p), b = _mm256_loadu_pd(p + 4);
   const __m256d low = _mm256_permute2f128_pd(a, b, 0x20), high = _mm256_permute2f128_pd(a, b, 0x31);
@@ -95,7 +95,7 @@ inline void store_four_pairs(double* p, __m256d x, __m256d y) noexcept {
   _mm256_storeu_pd(p, _mm256_permute2f128_pd(even, odd, 0x20));
   _mm256_storeu_pd(p + 4, _mm256_permute2f128_pd(even, odd, 0x31));
 }
-/// Eight vectors, one after the other (x, y).
+/// Loads eight vectors stored one after the other (x, y).
 inline void load_pairs(const double* p, Pack& x, Pack& y) noexcept {
   load_four_pairs(p, x.a, y.a);
   load_four_pairs(p + 8, x.b, y.b);
@@ -114,7 +114,7 @@ inline void gather_four_pairs(const double* p, const std::int32_t* at, __m256d& 
   x = _mm256_unpacklo_pd(even, odd);
   y = _mm256_unpackhi_pd(even, odd);
 }
-/// Eight vectors from where `at` says: numbers of doubles from p on.
+/// Loads eight vectors from the offsets `at`, counted in doubles from p.
 inline void gather_pairs(const double* p, const std::int32_t* at, Pack& x, Pack& y) noexcept {
   gather_four_pairs(p, at, x.a, y.a);
   gather_four_pairs(p, at + 4, x.b, y.b);
@@ -125,10 +125,10 @@ inline void sums_of_four_rows(const __m256d* rows, __m256d& x, __m256d& y) noexc
   x = _mm256_permute2f128_pd(a, b, 0x20);
   y = _mm256_permute2f128_pd(a, b, 0x31);
 }
-/// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) where its pair is in u.
+/// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) offset of the pair in u.
 inline void row_products(std::int64_t n, const double* k, const std::int32_t* column,
                          const double* u, Pack& x, Pack& y) noexcept {
-  __m256d sums[8] = {};  // of a row the products with k_xx, k_xy, k_yx, k_yy
+  __m256d sums[8] = {};  // per row: products with k_xx, k_xy, k_yx, k_yy
   for (; n > 0; --n, k += 32, column += 8) {
 #pragma GCC unroll 8
     for (int i = 0; i < 8; ++i) {

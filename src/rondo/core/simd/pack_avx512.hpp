@@ -46,18 +46,18 @@ inline Pack smaller(Pack a, Pack b) noexcept {
 inline Pack larger(Pack a, Pack b) noexcept {
   return {_mm512_max_pd(a.v, b.v)};
 }
-/// Guess of a^(-1/3): a third of the exponent, by the bits of a float.
+/// Guess of a^(-1/3): divides the exponent by three, using the bits of a float.
 inline Pack cube_root_guess(Pack a) noexcept {
   const __m256i bits = _mm256_castps_si256(_mm512_cvtpd_ps(a.v));
   const __m256 third = _mm256_mul_ps(_mm256_cvtepi32_ps(bits), _mm256_set1_ps(1.0F / 3.0F));
   const __m256i guess = _mm256_sub_epi32(_mm256_set1_epi32(0x54a23400), _mm256_cvtps_epi32(third));
   return {_mm512_cvtps_pd(_mm256_castsi256_ps(guess))};
 }
-/// The first n lanes of a, the others of b.
+/// The first n lanes of a, the other lanes of b.
 inline Pack first_lanes(int n, Pack a, Pack b) noexcept {
   return {_mm512_mask_blend_pd(static_cast<__mmask8>((1U << n) - 1U), b.v, a.v)};
 }
-/// Bit i is set where lane i of a <= b.
+/// Bit i is set if a <= b in lane i.
 inline unsigned not_above(Pack a, Pack b) noexcept {
   return _mm512_cmp_pd_mask(a.v, b.v, _CMP_LE_OQ);
 }
@@ -72,8 +72,8 @@ inline Pack shifted_up(Pack b, Pack c) noexcept {
       _mm512_alignr_epi64(_mm512_castpd_si512(c.v), _mm512_castpd_si512(b.v), 1))};
 }
 
-/// N packs of sectors from u on, with the last and the next sector of each. A load that crosses two
-/// cache lines costs two: the shifted ones are put together from the packs beside.
+/// Loads N packs of sectors from u on, and for each the values of the last and the next sector. The
+/// shifted packs are built from their neighbours: a load across two cache lines costs two loads.
 template <int N>
 inline void load_neighbours(const double* u, Pack* last, Pack* here, Pack* next) noexcept {
   Pack packs[N + 2];
@@ -87,7 +87,7 @@ inline void load_neighbours(const double* u, Pack* last, Pack* here, Pack* next)
   }
 }
 
-/// Eight vectors, one after the other (x, y).
+/// Loads eight vectors stored one after the other (x, y).
 inline void load_pairs(const double* p, Pack& x, Pack& y) noexcept {
   const __m512d a = _mm512_loadu_pd(p), b = _mm512_loadu_pd(p + 8);
   x.v = _mm512_permutex2var_pd(a, _mm512_setr_epi64(0, 2, 4, 6, 8, 10, 12, 14), b);
@@ -100,7 +100,7 @@ inline void store_pairs(double* p, Pack x, Pack y) noexcept {
   _mm512_storeu_pd(p + 8, _mm512_permutex2var_pd(x.v, high, y.v));
 }
 
-/// Eight vectors from where `at` says: numbers of doubles from p on.
+/// Loads eight vectors from the offsets `at`, counted in doubles from p.
 inline void gather_pairs(const double* p, const std::int32_t* at, Pack& x, Pack& y) noexcept {
   __m512d four[2];
 #pragma GCC unroll 2
@@ -115,11 +115,11 @@ inline void gather_pairs(const double* p, const std::int32_t* at, Pack& x, Pack&
   y.v = _mm512_permutex2var_pd(four[0], _mm512_setr_epi64(1, 3, 5, 7, 9, 11, 13, 15), four[1]);
 }
 
-/// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) where its pair is in u.
-/// Two rows a register; two numbers of columns a load: loads are what the loop is short of.
+/// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) offset of the pair in u. A
+/// register holds two rows, a load two columns: loads limit the speed of the loop.
 inline void row_products(std::int64_t n, const double* k, const std::int32_t* column,
                          const double* u, Pack& x, Pack& y) noexcept {
-  __m512d sums[4] = {};  // of rows 2i and 2i + 1 the products with k_xx, k_xy, k_yx, k_yy
+  __m512d sums[4] = {};  // of rows 2i, 2i + 1: products with k_xx, k_xy, k_yx, k_yy
   for (; n > 0; --n, k += 32, column += 8) {
 #pragma GCC unroll 4
     for (int i = 0; i < 4; ++i) {
@@ -131,7 +131,7 @@ inline void row_products(std::int64_t n, const double* k, const std::int32_t* co
       sums[i] = _mm512_fmadd_pd(_mm512_loadu_pd(k + i * 8), both, sums[i]);
     }
   }
-  // x of rows 0, 2, y of 0, 2, x of 1, 3, y of 1, 3; and of rows 4 to 7.
+  // The order is x of rows 0, 2, y of 0, 2, x of 1, 3, y of 1, 3; then that of rows 4 to 7.
   const auto pairs = [](__m512d a, __m512d b) {
     return _mm512_add_pd(_mm512_unpacklo_pd(a, b), _mm512_unpackhi_pd(a, b));
   };
@@ -140,9 +140,9 @@ inline void row_products(std::int64_t n, const double* k, const std::int32_t* co
   y.v = _mm512_permutex2var_pd(low, _mm512_setr_epi64(2, 6, 3, 7, 10, 14, 11, 15), high);
 }
 
-/// Packs whose product is formed at once: as many as the registers hold.
+/// Number of packs whose products are formed at once: as many as the registers hold.
 constexpr int block_packs = 4;
-/// The same where neighbouring rows are worked on together.
+/// Number of packs when neighbouring rows are processed together.
 constexpr int strip_packs = 2;
 
 }  // namespace

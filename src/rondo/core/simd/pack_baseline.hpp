@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Eight doubles in four registers of two, for any machine: products are not fused with
-/// sums. Inlined always: GCC takes functions of four registers for too long, and a call for each
-/// product makes a step two to three times as slow.
+/// @file  Eight doubles in four registers of two, for any machine: products and sums are not fused.
+/// Functions are always inlined because GCC considers functions of four registers too long, and a
+/// call per product would make a step two to three times as slow.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -58,7 +58,7 @@ struct Pack {
   for (int i = 0; i < 4; ++i) a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
   return a;
 }
-/// Guess of a^(-1/3): a third of the exponent, by the bits of a float.
+/// Guess of a^(-1/3): divides the exponent by three, using the bits of a float.
 [[gnu::always_inline]] inline Pack cube_root_guess(Pack a) noexcept {
   double x[8];
   store(x, a);
@@ -72,7 +72,7 @@ struct Pack {
   }
   return load(x);
 }
-/// The first n lanes of a, the others of b.
+/// The first n lanes of a, the other lanes of b.
 [[gnu::always_inline]] inline Pack first_lanes(int n, Pack a, Pack b) noexcept {
   double x[8], y[8];
   store(x, a);
@@ -80,7 +80,7 @@ struct Pack {
   for (int i = 0; i < n; ++i) y[i] = x[i];
   return load(y);
 }
-/// Bit i is set where lane i of a <= b.
+/// Bit i is set if a <= b in lane i.
 [[gnu::always_inline]] inline unsigned not_above(Pack a, Pack b) noexcept {
   double x[8], y[8];
   store(x, a);
@@ -90,7 +90,7 @@ struct Pack {
   return bits;
 }
 
-/// N packs of sectors from u on, with the last and the next sector of each.
+/// Loads N packs of sectors from u on, with the values of the last and the next sectors.
 template <int N>
 [[gnu::always_inline]] inline void load_neighbours(const double* u, Pack* last, Pack* here,
                                                    Pack* next) noexcept {
@@ -101,7 +101,7 @@ template <int N>
   }
 }
 
-/// Eight vectors, one after the other (x, y).
+/// Loads eight vectors stored one after the other (x, y).
 [[gnu::always_inline]] inline void load_pairs(const double* p, Pack& x, Pack& y) noexcept {
   double a[8], b[8];
   for (int i = 0; i < 8; ++i) {
@@ -121,7 +121,7 @@ template <int N>
   }
 }
 
-/// Eight vectors from where `at` says: numbers of doubles from p on.
+/// Loads eight vectors from the offsets `at`, counted in doubles from p.
 [[gnu::always_inline]] inline void gather_pairs(const double* p, const std::int32_t* at, Pack& x,
                                                 Pack& y) noexcept {
   double a[8], b[8];
@@ -133,14 +133,14 @@ template <int N>
   y = load(b);
 }
 
-/// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) where its pair is in u.
-/// Four rows at a time: so many sums stay in registers.
+/// K u of eight rows of `n` 2×2 blocks: k (n, rows, 4), column (n, rows) offset of the pair in u.
+/// Four rows at a time, so that all sums stay in registers.
 [[gnu::always_inline]] inline void row_products(std::int64_t n, const double* k,
                                                 const std::int32_t* column, const double* u,
                                                 Pack& x, Pack& y) noexcept {
   double to_x[8], to_y[8];
   for (int first = 0; first < 8; first += 4) {
-    Two sums[4][2] = {};  // of a row the products with k_xx and k_xy, with k_yx and k_yy
+    Two sums[4][2] = {};  // per row: products with k_xx and k_xy, with k_yx and k_yy
     for (std::int64_t at = 0; at < n; ++at) {
 #pragma GCC unroll 4
       for (int i = 0; i < 4; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  How far a name is from another, for messages that say what was probably meant.
+/// @file  Distance between two names, for messages that suggest the name probably meant.
 #pragma once
 #include <cstddef>
 #include <string_view>

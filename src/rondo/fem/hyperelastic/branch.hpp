@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A viscous branch at the center of an element: neo-Hookean energy of the strain that has
-/// not relaxed, its strain history C_i unimodular (docs/rubber.md, 1.5). Of C_i the plane part is
-/// kept; the rest of it is 1/det. T as in numbers.hpp.
+/// @file  A viscous branch at the center of an element: the neo-Hookean energy of the strain that
+/// has not relaxed, with a unimodular strain history C_i (docs/rubber.md, 1.5). Only the plane part
+/// of C_i is stored; its other component is 1/det. T as in numbers.hpp.
 #pragma once
 #include "rondo/fem/hyperelastic/laws.hpp"
 
@@ -18,7 +18,7 @@ T determinant(const Symmetric<T>& c) noexcept {
   return c.xx * c.yy - c.xy * c.xy;
 }
 
-/// F by its columns: the deformed X and Y axes.
+/// F by columns: the deformed X and Y axes.
 template <class T>
 struct Gradient {
   Pair<T> x, y;
@@ -30,7 +30,7 @@ Symmetric<T> right_cauchy_green(const Gradient<T>& f) noexcept {
   return {dot(f.x, f.x), dot(f.y, f.y), dot(f.x, f.y)};
 }
 
-/// C_i ← uni(C_i + a C̄): the exact relaxation where C̄ rests, a = e^{Δt/τ} - 1.
+/// C_i ← uni(C_i + a C̄): the exact relaxation for constant C̄, with a = e^{Δt/τ} - 1.
 /// @param y J^(-1/3)
 template <class T>
 Symmetric<T> relaxed(const Symmetric<T>& history, const Symmetric<T>& c, T y, T a) noexcept {

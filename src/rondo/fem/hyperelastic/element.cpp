@@ -14,7 +14,7 @@ Vec2 vector(Pair<double> v) noexcept {
   return {v.x, v.y};
 }
 
-/// The field with its corners as unknowns; a number of constants has none.
+/// The field with the corner values as unknowns; constants have no derivatives.
 template <class T, std::size_t N>
 std::array<Pair<T>, N> constants(const std::array<Vec2, 4>& v) noexcept {
   std::array<Pair<T>, N> field;
@@ -29,7 +29,7 @@ std::array<Pair<Dual<2 * N>>, N> unknowns(const std::array<Vec2, 4>& v) noexcept
   return field;
 }
 
-/// work(law) of numbers T.
+/// Calls work(law) with the law in numbers of type T.
 template <class T, class Work>
 auto with_law(const Rubber& rubber, Work&& work) {
   if (rubber.law == RubberLaw::ogden) return work(Ogden(rubber));
@@ -60,10 +60,10 @@ ElementMatrix slopes_of(const std::array<Pair<Dual<2 * N>>, N>& forces) {
   return k;
 }
 
-/// ∂/∂(ξ, η) at the center of a field, and how much area goes with it there.
+/// ∂/∂(ξ, η) of a field at the center, and the area that belongs to the point.
 struct Frame {
   Gradient<double> x, u;
-  double share = 0.0;  ///< area over det ∂X/∂(ξ, η)
+  double share = 0.0;  ///< area / det ∂X/∂(ξ, η)
 };
 
 Frame frame_of(const DeformedCell& cell) noexcept {
@@ -78,7 +78,7 @@ double branch_modulus(const Rubber& rubber, const ViscousBranch& branch) noexcep
   return branch.relative_modulus * rubber.shear_modulus();
 }
 
-/// Of all branches, their histories held. @param g ∂X/∂(ξ, η) at the center; h ∂u/∂(ξ, η)
+/// Stresses of all branches at constant histories. @param g ∂X/∂(ξ, η) at the center; h ∂u/∂(ξ, η)
 template <class T>
 Gradient<T> branch_stresses(const Rubber& rubber, const Gradient<T>& g, const Gradient<T>& h,
                             std::span<const Symmetric<double>> history) noexcept {
@@ -145,7 +145,7 @@ ElementMatrix tangent_of(const Rubber& rubber, const DeformedCell& cell, double 
     const Gradient<Dual<8>> g{of_x.along, of_x.across};
     Bilinear<Dual<8>> by{};
     add_stress(branch_stresses(rubber, g, {of_u.along, of_u.across}, history), g, 0.0, 0.0, by);
-    const Dual<8> four(4.0);  // times det of ∂X/∂(ξ, η): the area
+    const Dual<8> four(4.0);  // factor of det ∂X/∂(ξ, η) in the area
     return k +
            slopes_of<4>(at_corners(Bilinear<Dual<8>>{four * by.along, four * by.across, by.twist}));
   }

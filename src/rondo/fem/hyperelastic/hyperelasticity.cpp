@@ -47,7 +47,7 @@ Hyperelasticity::Hyperelasticity(const mesh::Mesh& mesh, std::span<const Materia
   find_corners();
 }
 
-/// By counting: of each node the corners in the order of the cells.
+/// Finds, by counting, the corners of each node in the order of the cells.
 void Hyperelasticity::find_corners() {
   first_corner_.assign(n_nodes() + 1, 0);
   const auto for_corners = [&](auto&& work) {
@@ -74,7 +74,7 @@ std::vector<char> Hyperelasticity::nodes_of_rubber_alone() const {
   return alone;
 }
 
-/// @param u empty: undeformed
+/// @param u empty: no displacement
 DeformedCell Hyperelasticity::deformed(const Part& part, std::span<const Vec2> u) const noexcept {
   DeformedCell cell;
   cell.n_corners = part.n_corners;
@@ -121,7 +121,7 @@ double Hyperelasticity::relax(std::span<const Vec2> u, double half_step,
   return sum;
 }
 
-/// J - 1 of the patches, the mean of their triangles by area.
+/// J - 1 of the patches: the mean of their triangles, weighted by area.
 std::vector<double> Hyperelasticity::patch_changes(std::span<const Vec2> u) const {
   std::vector<double> change(dilatation_.size(), 0.0);
   for (const Part& part : parts_) {
@@ -138,7 +138,7 @@ Hyperelasticity::Pressures Hyperelasticity::patch_pressures(std::span<const Vec2
   const std::vector<double> change = patch_changes(u);
   Pressures p{std::vector<double>(change.size()), std::vector<double>(change.size())};
   for (std::size_t i = 0; i < change.size(); ++i) {
-    if (patch_bulk_[i] == 0.0 || change[i] <= -1.0) continue;  // its cells tell
+    if (patch_bulk_[i] == 0.0 || change[i] <= -1.0) continue;  // its cells report it
     const double j = 1.0 + change[i], area = dilatation_.area(i);
     const auto volumetric = hyperelastic::volumetric(patch_bulk_[i], change[i]);
     p.value[i] = volumetric.pressure;
@@ -155,7 +155,7 @@ double Hyperelasticity::mean_pressure(const Part& part, const Pressures& pressur
   return sum / 3.0;
 }
 
-/// Forces, energy and smallest det F of a cell.
+/// Computes forces, energy and smallest det F of a cell.
 void Hyperelasticity::look_at(std::size_t i, std::span<const Vec2> u, Histories histories,
                               const Pressures& pressures, Pass& pass) const {
   const Part& part = parts_[i];
@@ -202,7 +202,7 @@ Look Hyperelasticity::gradient(std::span<const Vec2> u, Histories histories, std
   return look;
 }
 
-/// U''/V ∂v ∂vᵀ of each patch: the rest, U' ∂²v, is that of its triangles.
+/// Adds U''/V ∂v ∂vᵀ of each patch; the remaining term, U' ∂²v, belongs to its triangles.
 void Hyperelasticity::add_patches(std::span<const Vec2> u, const Pressures& pressures,
                                   BlockCsr& k) const {
   if (dilatation_.empty()) return;

@@ -4,8 +4,8 @@
 namespace rondo::fem::hyperelastic {
 namespace {
 
-/// With z = cosh 2d: cosh αd, h = sinh αd / sinh 2d and its derivative by z. They are Chebyshev
-/// functions of degree n = α/2; near z = 1 by their series.
+/// With z = cosh 2d: cosh αd, h = sinh αd / sinh 2d and its derivative by z. These are Chebyshev
+/// functions of degree n = α/2, computed by their series near z = 1.
 struct Hyperbolic {
   double cosh, h, slope;
 };
@@ -35,7 +35,7 @@ Hyperbolic hyperbolic(double exponent, double less_1) noexcept {
   return {cosh, h, (exponent * cosh - 2.0 * h * z) / (2.0 * sinh_2d * sinh_2d)};
 }
 
-/// z - 1 of s = 2 J z: round-off may make it less than it can be.
+/// z - 1 for s = 2 J z, which round-off could make negative.
 double spread(double s, double j) noexcept {
   return std::max(0.0, (s - 2.0 * j) / (2.0 * j));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Laws of rubber in plane strain as functions of s = F:F and J = det F (docs/rubber.md,
-/// 1.2): every isotropic one is, and its first Piola-Kirchhoff stress is a F + b cof F with
-/// a = 2 ∂W/∂s, b = ∂W/∂J. T as in numbers.hpp.
+/// 1.2). Every isotropic law is such a function, and its first Piola-Kirchhoff stress is a F + b
+/// cof F with a = 2 ∂W/∂s, b = ∂W/∂J. T as in numbers.hpp.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace rondo::fem::hyperelastic {
 
 template <class T>
 struct PlaneStress {
-  T a, b;  ///< of a F + b cof F                                                        [Pa]
+  T a, b;  ///< coefficients of a F + b cof F                                            [Pa]
   T w;     ///< W                                                                       [Pa]
 };
 
@@ -53,14 +53,14 @@ struct Polynomial {
   }
 };
 
-/// d and sinh(2d) of the principal stretches e^{±d} √J: s = 2 J cosh(2d). Of numbers with
-/// derivatives: those of what is a function of d² are finite where d = 0.
+/// d and sinh(2d) of the principal stretches e^{±d} √J: s = 2 J cosh(2d). For numbers with
+/// derivatives: functions of d² have finite derivatives at d = 0.
 struct Ogden {
   const std::vector<OgdenTerm>& terms;
   explicit Ogden(const Rubber& r) noexcept : terms(r.terms) {}
 
   PlaneStress<double> operator()(double s, double j) const noexcept;
-  /// Derivatives of a and b by s and by J.
+  /// Derivatives of a and b with respect to s and J.
   struct Slope {
     double a, b;
   };
@@ -79,15 +79,15 @@ struct Ogden {
   }
 };
 
-/// Of eight points at once.
+/// The coefficients a and b of eight points at once.
 void ogden_stress(const Rubber& rubber, const double* s, const double* j, double* a, double* b,
                   double* w) noexcept;
 
-/// By the law that the rubber has. @param s F:F; j det F > 0
+/// Stress by the law of the rubber. @param s F:F; j det F > 0
 [[nodiscard]] PlaneStress<double> isochoric_stress(const Rubber& rubber, double s,
                                                    double j) noexcept;
 
-/// U = κ/4 (J² - 1 - 2 ln J) and U' = κ/2 (J - 1/J) from J - 1, whose digits count.
+/// U = κ/4 (J² - 1 - 2 ln J) and U' = κ/2 (J - 1/J) from J - 1, which keeps its digits.
 template <class T>
 struct Volumetric {
   T energy;    ///< [Pa]

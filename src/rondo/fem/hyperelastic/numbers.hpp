@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Numbers that the laws and elements of rubber are written for: double; dual numbers, whose
-/// derivatives come with them; eight doubles in a register (core/simd). Functions that all have:
-/// + - * /, fma(a, b, c) = a b + c, inverse_cube_root(a) with a > 0, log1p(a), as<T>(double).
+/// @file  Number types of the laws and elements of rubber: double; dual numbers, which carry their
+/// derivatives; eight doubles in a register (core/simd). Functions that all types have: + - * /,
+/// fma(a, b, c) = a b + c, inverse_cube_root(a) with a > 0, log1p(a), as<T>(double).
 #pragma once
 #include <array>
 #include <cmath>
@@ -20,7 +20,7 @@ inline double log1p(double a) noexcept {
   return std::log1p(a);
 }
 
-/// A value and its derivatives by N unknowns (forward mode).
+/// A value and its derivatives with respect to N unknowns (forward mode).
 template <std::size_t N>
 struct Dual {
   double value = 0.0;
@@ -28,7 +28,7 @@ struct Dual {
 
   Dual() = default;
   explicit(false) Dual(double v) noexcept : value(v) {}
-  /// The unknown of this number.
+  /// The number v as the unknown with index `which`.
   static Dual unknown(double v, std::size_t which) noexcept {
     Dual d(v);
     d.slope[which] = 1.0;
@@ -36,7 +36,7 @@ struct Dual {
   }
 };
 
-/// f(a) with derivative f'.
+/// f(a), whose derivative is f'.
 template <std::size_t N>
 Dual<N> chain(double f, double slope, const Dual<N>& a) noexcept {
   Dual<N> d(f);
@@ -86,13 +86,13 @@ Dual<N> log1p(const Dual<N>& a) noexcept {
   return chain(std::log1p(a.value), 1.0 / (1.0 + a.value), a);
 }
 
-/// The same number whatever the unknowns are.
+/// A constant as a T: all its derivatives are zero.
 template <class T>
 T as(double value) noexcept {
   return T(value);
 }
 
-/// A plane vector of them.
+/// A plane vector of such numbers.
 template <class T>
 struct Pair {
   T x, y;

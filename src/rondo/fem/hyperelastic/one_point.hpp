@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The quadrilateral of rubber with one point, and a stiffness of its own against the motion
+/// @file  The quadrilateral of rubber with one point and an additional stiffness against the motion
 /// that the point does not see (docs/rubber.md, 1.3): ½ V/3 4μ [(A·q)²/|A_X|⁴ + (B·q)²/|B_X|⁴] with
-/// x = c + A ξ + B η + H ξη and q = H - F H_X. In the axes A, B of the element the rigid rotation
-/// is no strain. T as in numbers.hpp.
+/// x = c + A ξ + B η + H ξη and q = H - F H_X. In the axes A, B of the element a rigid rotation
+/// causes no strain. T as in numbers.hpp.
 #pragma once
 #include "rondo/fem/hyperelastic/quadrilateral.hpp"
 
 namespace rondo::fem::hyperelastic {
 
-/// The part of the twist that the deformation of the center does not explain.
+/// The part of the twist that the deformation at the center does not explain.
 template <class T>
 struct Hourglass {
   T along, across;        ///< of H_X = along A_X + across B_X
@@ -32,13 +32,13 @@ Hourglass<T> hourglass(const Bilinear<T>& x, const Bilinear<T>& u, T r) noexcept
   return h;
 }
 
-/// 4/3 μ V: the energy is half of it times (A·q)²/|A_X|⁴ + (B·q)²/|B_X|⁴              [N]
+/// 4/3 μ V: the energy is ½ of it times (A·q)²/|A_X|⁴ + (B·q)²/|B_X|⁴                 [N]
 template <class T>
 T hourglass_stiffness(T shear, T area) noexcept {
   return as<T>(4.0 / 3.0) * shear * area;
 }
 
-/// One point without branches. @param x, u X and u of the element; shear μ of small strain [Pa]
+/// One point without branches. @param x, u X and u of the element; shear μ at small strain [Pa]
 template <class T, class Law>
 ElementResult<T> one_point(const Bilinear<T>& x, const Bilinear<T>& u, const Law& law, T bulk,
                            T shear) noexcept {

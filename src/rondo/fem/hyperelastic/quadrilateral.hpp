@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The quadrilateral of rubber, total Lagrangian (docs/rubber.md, 1.3): an isochoric energy
-/// at 2×2 points and a volumetric one of the element's mean dilatation (Q1P0; Simo, Taylor and
-/// Pister 1985), or one point and a covariant hourglass stiffness. All is a function of ∇u, for
-/// what is left of x = X + u has lost digits. T as in numbers.hpp.
+/// at 2×2 points and a volumetric energy of the element's mean dilatation (Q1P0; Simo, Taylor and
+/// Pister 1985), or one point and a covariant hourglass stiffness. Everything is a function of ∇u
+/// because differences of x = X + u have lost digits. T as in numbers.hpp.
 #pragma once
 #include <array>
 
@@ -10,7 +10,7 @@
 
 namespace rondo::fem::hyperelastic {
 
-/// A bilinear field, its mean left out: center + along ξ + across η + twist ξη.
+/// A bilinear field without its mean: center + along ξ + across η + twist ξη.
 template <class T>
 struct Bilinear {
   Pair<T> along, across, twist;
@@ -27,7 +27,7 @@ Bilinear<T> bilinear(const Corners<T>& v) noexcept {
   return {quarter * (low + high), quarter * sum, quarter * (high - low)};
 }
 
-/// Derivatives of an energy by the bilinear field, as forces at the corners.
+/// Derivatives of an energy with respect to the bilinear field, as forces at the corners.
 template <class T>
 Corners<T> at_corners(const Bilinear<T>& by) noexcept {
   const T quarter = as<T>(0.25);
@@ -38,7 +38,7 @@ Corners<T> at_corners(const Bilinear<T>& by) noexcept {
 }
 
 inline constexpr double gauss = 0.57735026918962576451;  ///< 1/√3
-/// Of 2×2 quadrature, (ξ, η).
+/// The points of 2×2 quadrature, (ξ, η).
 inline constexpr double points[4][2] = {
     {-gauss, -gauss}, {gauss, -gauss}, {gauss, gauss}, {-gauss, gauss}};
 
@@ -48,7 +48,7 @@ Gradient<T> local_gradient(const Bilinear<T>& f, double xi, double eta) noexcept
   return {fma(as<T>(eta), f.twist, f.along), fma(as<T>(xi), f.twist, f.across)};
 }
 
-/// What a point knows of its deformation.
+/// The deformation at a point.
 template <class T>
 struct PointState {
   Gradient<T> f;  ///< F by columns
@@ -70,7 +70,7 @@ PointState<T> point_state(const Gradient<T>& g, const Gradient<T>& h, T r) noexc
   return p;
 }
 
-/// det g · P · g⁻ᵀ: derivatives by ∂u/∂ξ and ∂u/∂η, added to those of the bilinear field.
+/// det g · P · g⁻ᵀ: derivatives with respect to ∂u/∂ξ and ∂u/∂η, added to those of the field.
 template <class T>
 void add_stress(const Gradient<T>& p, const Gradient<T>& g, double xi, double eta,
                 Bilinear<T>& by) noexcept {
@@ -87,12 +87,12 @@ Gradient<T> stress_of(const PlaneStress<T>& law, const Gradient<T>& f) noexcept 
           {law.a * f.y.x - law.b * f.x.y, fma(law.a, f.y.y, law.b * f.x.x)}};
 }
 
-/// Of an element: derivatives of its energy, and where it is inverted.
+/// Result of an element: derivatives of its energy, and its smallest det F.
 template <class T>
 struct ElementResult {
   Bilinear<T> by;  ///< per unit thickness                                          [N/m]
   T energy;        ///< without branches                                            [J/m]
-  T least;         ///< smallest det F of its points
+  T least;         ///< smallest det F over its points
 };
 
 template <class T>
@@ -100,15 +100,15 @@ T smaller(T a, T b) noexcept {
   return b < a ? b : a;
 }
 
-/// det F of an element that is inverted ends a run; where the numbers go on for a while, as those
-/// of registers do, it is kept above this.
+/// An inverted element ends a run. Where the calculation must continue for a while, as in
+/// registers, det F is kept above this value.
 inline constexpr double least_volume = 1e-3;
 template <class T>
 T bounded(T j_less_1) noexcept {
   return j_less_1;
 }
 
-/// Q1P0 without branches. @param x, u X and u of the element
+/// The Q1P0 element without branches. @param x, u X and u of the element
 template <class T, class Law>
 ElementResult<T> mean_dilatation(const Bilinear<T>& x, const Bilinear<T>& u, const Law& law,
                                  T bulk) noexcept {

@@ -16,7 +16,7 @@ Corners<double> corners_of(const std::array<Vec2, 4>& v) noexcept {
   return corners;
 }
 
-/// J⁻¹ P Fᵀ = a/J F Fᵀ + b. The trace of an isochoric stress is none: so is what is across.
+/// J⁻¹ P Fᵀ = a/J F Fᵀ + b. An isochoric stress has no trace, which gives the out-of-plane stress.
 Stress isochoric(const Rubber& rubber, const PointState<double>& at) noexcept {
   const double j = 1.0 + at.j_less_1;
   if (!(j > 0.0)) return {none, none, none, none};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Cauchy stress of cells of rubber (docs/rubber.md, 1.6), of the law without viscous
+/// @file  Cauchy stress of cells of rubber (docs/rubber.md, 1.6) by the law without viscous
 /// branches: J⁻¹ P Fᵀ of the isochoric energy at the points of the element, and the mean pressure
-/// of its volume, a triangle's at its nodes.
+/// of its volume (for a triangle, that at its nodes).
 #pragma once
 #include <array>
 
@@ -11,13 +11,13 @@
 
 namespace rondo::fem::hyperelastic {
 
-/// Stress at the corners along the axes of u: that of 2×2 points extrapolated bilinearly; of one
-/// point, and of a triangle but for its pressures, constant. Not a number where the cell is
-/// inverted. @param pressure U' of a triangle's nodes; of a quadrilateral not looked at [Pa]
+/// Stress at the corners in the axes of u. With 2×2 points it is extrapolated bilinearly; with one
+/// point, and in a triangle except for its pressures, it is constant. NaN if the cell is inverted.
+/// @param pressure U' at a triangle's nodes; not used for a quadrilateral [Pa]
 [[nodiscard]] std::array<Stress, 4> corner_stress(const Rubber& rubber, const DeformedCell& cell,
                                                   const std::array<double, 4>& pressure) noexcept;
 
-/// U' of a volume [Pa]; not a number where there is none left. @param j_less_1 J - 1
+/// U' of a volume [Pa]; NaN if the volume is not positive. @param j_less_1 J - 1
 [[nodiscard]] double pressure_of(const Rubber& rubber, double j_less_1) noexcept;
 
 /// @param u displacement of a node [m]
@@ -33,7 +33,7 @@ DeformedCell deformed_cell(const mesh::Mesh& mesh, std::size_t cell, Displacemen
   return deformed;
 }
 
-/// Of a cell in its mesh: the volume of a triangle is that of the triangles around its nodes.
+/// Corner stress of a cell of a mesh; a triangle's volume is that of the triangles at its nodes.
 template <class Displacement>
 std::array<Stress, 4> cell_stress(const mesh::Mesh& mesh, std::size_t cell, const Rubber& rubber,
                                   const NodalDilatation& dilatation, Displacement&& u) {

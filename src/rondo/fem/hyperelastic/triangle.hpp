@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The triangle of rubber (docs/rubber.md, 1.3): its isochoric energy at one point; the
-/// volumetric one is that of the nodes, whose volumes are a third of the triangles around each.
-/// T as in numbers.hpp.
+/// @file  The triangle of rubber (docs/rubber.md, 1.3): its isochoric energy is evaluated at one
+/// point; the volumetric energy belongs to the nodes, whose volume is a third of the triangles
+/// around each. T as in numbers.hpp.
 #pragma once
 #include <array>
 
@@ -12,13 +12,13 @@ namespace rondo::fem::hyperelastic {
 template <class T>
 using ThreeCorners = std::array<Pair<T>, 3>;  ///< counter-clockwise
 
-/// ∂/∂ξ and ∂/∂η of a linear field, ξ and η from corner 0 to corners 1 and 2.
+/// ∂/∂ξ and ∂/∂η of a linear field; ξ and η go from corner 0 to corners 1 and 2.
 template <class T>
 Gradient<T> edges_of(const ThreeCorners<T>& v) noexcept {
   return {v[1] - v[0], v[2] - v[0]};
 }
 
-/// Forces of a stress P at the corners, per unit thickness [N/m]. @param g edges of X
+/// Corner forces of a stress P per unit thickness [N/m]. @param g edges in the reference X
 template <class T>
 ThreeCorners<T> triangle_forces(const Gradient<T>& p, const Gradient<T>& g) noexcept {
   const T half = as<T>(0.5);
@@ -30,10 +30,10 @@ ThreeCorners<T> triangle_forces(const Gradient<T>& p, const Gradient<T>& g) noex
 template <class T>
 struct TriangleResult {
   ThreeCorners<T> by;  ///< derivatives of the energy, per unit thickness              [N/m]
-  T energy;            ///< without branches and volume                               [J/m]
+  T energy;            ///< without branches and volumetric part                [J/m]
 };
 
-/// With the mean pressure of its nodes [Pa]. @param x, u X and u of the corners
+/// Includes the mean pressure of its nodes [Pa]. @param x, u X and u of the corners
 template <class T, class Law>
 TriangleResult<T> triangle(const ThreeCorners<T>& x, const ThreeCorners<T>& u, const Law& law,
                            T mean) noexcept {

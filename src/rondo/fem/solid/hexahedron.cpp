@@ -67,8 +67,8 @@ std::array<double, 3> components(Vec3 v) noexcept {
 
 using Block = std::array<std::array<double, 3>, 3>;
 
-/// Adds first a bᵀ + second b aᵀ + second (a·b) I: what corners with the gradients a and b have of
-/// each other.
+/// Adds first a bᵀ + second b aᵀ + second (a·b) I: the coupling of two corners with the gradients a
+/// and b.
 void add_block(double first, double second, Vec3 a, Vec3 b, Block& sum) noexcept {
   const std::array<double, 3> p = components(a), q = components(b);
   for (std::size_t r = 0; r < 3; ++r)
@@ -77,7 +77,7 @@ void add_block(double first, double second, Vec3 a, Vec3 b, Block& sum) noexcept
   for (std::size_t r = 0; r < 3; ++r) sum[r][r] += both;
 }
 
-/// Weights of the trilinear field through the points at the corners.
+/// Weights of the values at the points in the trilinear field at the corners.
 struct AtCorner {
   std::array<PointNumbers, 8> weight;
   AtCorner() {
@@ -89,10 +89,10 @@ struct AtCorner {
 
 const AtCorner at_corner;
 
-/// σ at all points at once, which is what most of the time of a snapshot goes into.
+/// σ at all points at once; this takes most of the time of a snapshot.
 std::array<PointNumbers, 6> stress_at_points(const HexahedronPoints& points,
                                              const HexahedronCorners& u, const Law& law) noexcept {
-  PointNumbers xx{}, yy{}, zz{}, xy{}, yz{}, zx{};  // strains, the last three of engineers
+  PointNumbers xx{}, yy{}, zz{}, xy{}, yz{}, zx{};  // strains; γ in the last three
   for (std::size_t i = 0; i < 8; ++i) {
     const auto& [dx, dy, dz] = points.gradient[i];
     for (std::size_t q = 0; q < 8; ++q) {

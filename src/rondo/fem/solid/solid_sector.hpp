@@ -14,24 +14,24 @@ namespace rondo::fem {
 /// @pre the mesh is solid, with N >= 3 equal sectors; no inverted element.
 SolidSector assemble_solid_sector(const mesh::Mesh& mesh, std::span<const Material> materials);
 
-/// (n) lumped by the volumes of the corners (hexahedron_volumes), the same in each sector to the
-/// last bit [kg].
+/// (n) lumped by the volumes of the corners (hexahedron_volumes), bitwise equal in all sectors
+/// [kg].
 std::vector<double> solid_mass(const mesh::Mesh& mesh, std::span<const Material> materials);
 
-/// max over elements of hexahedron_eigenvalue_bound: bounds ω² [1/s²].
+/// The maximum of hexahedron_eigenvalue_bound over the elements: an upper bound of ω² [1/s²].
 double solid_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials);
 
-/// (n_local of k) force per unit of pressure against the outward normals of the faces of one
-/// sector, in its frame, that of X in sector 0, and along the axle [m²]. Faces of other sectors
-/// than 0 and its neighbours are not looked at.
+/// (n_local of k) force per unit of pressure against the outward normals of the faces of one sector
+/// [m²]; components in the sector's frame, which is that of X in sector 0, and along the axle. Only
+/// faces of sector 0 and its neighbours are examined.
 std::vector<Vec3> sector_pressure(const mesh::Mesh& mesh, const SolidSector& k,
                                   std::span<const mesh::Face> faces);
 
-/// K u in the turning frame, (n) each; clamped nodes give 0. The readable product.
+/// K u in the rotating frame, (n) each; clamped nodes give 0. Simple reference implementation.
 void apply(const SolidSector& k, std::span<const Vec3> u, std::span<Vec3> out);
 
-/// Of the radial and tangential components alone, as if no node moved along the axle. Nodes of a
-/// section that differ along the axle alone stay apart [N/m].
+/// Stiffness of the radial and tangential components alone, as if no node moved along the axle.
+/// Nodes of a section that differ only in their axial position remain separate [N/m].
 SectorStiffness plane_part(const SolidSector& k);
 
 }  // namespace rondo::fem

@@ -18,7 +18,7 @@ double volume(const Edges& e) noexcept {
   return dot(e[0], cross(e[1], e[2]));
 }
 
-/// Of corner k and its neighbours, right-handed at each corner of an element that is not inverted.
+/// Edges from corner k to its neighbours; right-handed at the corners of a valid element.
 Edges edges_at(const HexahedronCorners& x, std::size_t k) noexcept {
   const std::size_t face = k < 4 ? 0 : 4, c = k - face;
   const Vec3 next = x[face + (c + 1) % 4] - x[k], last = x[face + (c + 3) % 4] - x[k];
@@ -26,7 +26,7 @@ Edges edges_at(const HexahedronCorners& x, std::size_t k) noexcept {
   return face == 0 ? Edges{next, last, across} : Edges{last, next, across};
 }
 
-/// Means of the four edges along each direction: the gradient at the center maps these.
+/// Means of the four edges along each direction: the gradient at the center maps their changes.
 Edges mean_edges(const HexahedronCorners& x) noexcept {
   Edges e;
   for (const std::size_t f : {std::size_t{0}, std::size_t{4}}) {
@@ -37,7 +37,7 @@ Edges mean_edges(const HexahedronCorners& x) noexcept {
   return e;
 }
 
-/// Symmetric, by the parts that are needed.
+/// The parts of a symmetric strain that are needed.
 struct SolidStrain {
   double xx, yy, zz, xy, yz, zx;
 };
@@ -58,7 +58,7 @@ SolidStrain strain_of(const Edges& e, const Edges& du) noexcept {
   return s;
 }
 
-/// Largest |eigenvalue|, by the angle whose cosine is half the determinant of the scaled deviator.
+/// Largest |eigenvalue|, from the angle whose cosine is ½ the determinant of the scaled deviator.
 double largest_principal(const SolidStrain& s) noexcept {
   const double mean = (s.xx + s.yy + s.zz) / 3.0;
   const double x = s.xx - mean, y = s.yy - mean, z = s.zz - mean;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  How far a wheel in three dimensions is deformed, hexahedron by hexahedron.
+/// @file  Measures of the deformation of a wheel in three dimensions, element by element.
 #pragma once
 #include <span>
 
@@ -8,8 +8,8 @@
 
 namespace rondo::fem {
 
-/// As deformation() in the plane: principal strains at the centers, J at the corners; `strain_cell`
-/// and `jacobian_cell` are numbers of hexahedra.
+/// Equivalent of deformation() in the plane: principal strains at the centers, J at the corners;
+/// `strain_cell` and `jacobian_cell` are numbers of hexahedra.
 /// @param u (n) finite, turning frame [m]. @pre there is a hexahedron
 [[nodiscard]] Deformation solid_deformation(const mesh::Mesh& mesh,
                                             std::span<const Vec3> u) noexcept;

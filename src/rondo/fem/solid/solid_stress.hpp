@@ -14,34 +14,34 @@ namespace rondo::fem {
 class SolidStressRecovery {
  public:
   /// @param materials one for each region of the mesh (material_of).
-  /// @pre the mesh has equal sectors, nodes and elements numbered sector after sector alike, as
-  /// revolve() makes it.
+  /// @pre the mesh has equal sectors; nodes and elements are numbered sector after sector in the
+  /// same order, as revolve() does.
   SolidStressRecovery(const mesh::Mesh& mesh, std::span<const Material> materials);
 
-  /// (n) σ at the nodes in the frame of u, means over the elements around weighted by what the
-  /// corners have of their volumes [Pa]; u (n) [m]. Allocates nothing.
+  /// (n) σ at the nodes in the frame of u [Pa]: means over the elements around a node, weighted by
+  /// the volume that each element has at that corner; u (n) [m]. Allocates nothing.
   std::span<const SolidStress> operator()(std::span<const Vec3> u);
 
  private:
-  /// Of sector 0; its nodes may be of the next sector too.
+  /// An element of sector 0; its nodes may also belong to the next sector.
   struct Element {
     mesh::Hexahedron nodes;
-    std::array<double, 8> weight;  ///< share of a corner in its node's mean
+    std::array<double, 8> weight;  ///< weight of a corner in its node's mean
     HexahedronPoints points;
-    std::size_t material;  ///< place in materials_
+    std::size_t material;  ///< index in materials_
   };
   std::vector<Material> materials_;
   std::vector<Element> elements_;
-  std::vector<Complex> turn_;  ///< (N) from sector 0 to each
+  std::vector<Complex> turn_;  ///< (N) rotation from sector 0 to each sector
   std::size_t nodes_per_sector_ = 0;
   std::vector<SolidStress> nodal_;
 };
 
-/// The same once.
+/// The same stress for a single evaluation.
 std::vector<SolidStress> solid_stress(const mesh::Mesh& mesh, std::span<const Material> materials,
                                       std::span<const Vec3> u);
 
-/// R σ Rᵀ: the stress along axes turned back about the axle by the angle of r = e^{iθ}.
+/// R σ Rᵀ: the stress in axes turned back about the axle by the angle of r = e^{iθ}.
 SolidStress turned(const SolidStress& stress, Complex r) noexcept;
 
 /// √(½[(σxx-σyy)² + (σyy-σzz)² + (σzz-σxx)²] + 3(σxy² + σyz² + σzx²)) [Pa].

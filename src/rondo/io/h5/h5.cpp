@@ -20,7 +20,7 @@ bool set_rows_layout(hid_t properties, const Shape& shape, Type type) {
          H5Pset_fill_time(properties, H5D_FILL_TIME_NEVER) >= 0;
 }
 
-/// Of any length, UTF-8: what h5py reads as str.
+/// A text of any length in UTF-8, which h5py reads as str.
 Handle text_type() {
   Handle type(H5Tcopy(H5T_C_S1));
   H5Tset_size(type.get(), H5T_VARIABLE);
@@ -39,7 +39,7 @@ bool write_text(hid_t object, const std::string& name, const std::string& text) 
 bool read_text(hid_t object, const std::string& name, std::string& text) {
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
   if (attribute.get() < 0) return false;
-  // As many pointers come back as the attribute has texts: there is room for one.
+  // As many pointers are returned as the attribute has texts; there is room for one only.
   const Handle space(H5Aget_space(attribute.get())), type = text_type();
   if (H5Sget_simple_extent_npoints(space.get()) != 1) return false;
   char* value = nullptr;
@@ -66,14 +66,14 @@ void Dataset::find_spaces() {
   std::vector<hsize_t> dims(static_cast<std::size_t>(rank));
   H5Sget_simple_extent_dims(file_space_.get(), dims.data(), nullptr);
   shape_.assign(dims.begin(), dims.end());
-  Shape row = shape_;  // of the file's rank: HDF5 then copies at once, else number by number
+  Shape row = shape_;  // same rank as the file: HDF5 then copies at once, not singly
   if (!row.empty()) row[0] = 1;
   row_space_ = make_space(row, row);
 }
 
-/// The places [first, first + n) of the second dimension of a row; of a row of one number, n is 1.
+/// Selects entries [first, first + n) of the second dimension of a row; n is 1 without one.
 void Dataset::select(std::size_t row, std::size_t first, std::size_t n) const {
-  be_quiet();  // rows may be written by another thread than the one that made the file
+  be_quiet();  // the thread may not be the one that made the file
   constexpr std::size_t most = 8;
   const std::size_t places = shape_.size() > 1 ? shape_[1] : 1;
   RONDO_DEMAND(!shape_.empty() && shape_.size() <= most && row < shape_[0], name_, shape_.size(),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  HDF5 files: what this program needs of the C library, with ownership and errors.
-///
-/// No header of HDF5 is included here. Every dataset has the attributes `units` and `description`.
-/// Files are written in the oldest layout (readable by HDF5 1.8 and later), without time stamps, so
-/// that the same values give the same bytes; they are never locked, so that a run can be watched.
+/// @file  HDF5 files: the part of the C library that this program needs, with ownership and errors.
+/// This header includes no header of HDF5. Every dataset has the attributes `units` and
+/// `description`. Files are written in the oldest layout (readable by HDF5 1.8 and later), without
+/// time stamps, so that the same values give the same bytes. They are never locked, so that a run
+/// can be watched.
 #pragma once
 #include <array>
 #include <cstddef>
@@ -24,16 +24,16 @@ namespace rondo::io::h5 {
 enum class Type { float64, float32, int32, int64, uint8 };
 
 using Shape = std::vector<std::size_t>;
-/// Numbers in the dimensions from `first` on.
+/// Number of entries in the dimensions from `first` on.
 [[nodiscard]] std::size_t product(const Shape& shape, std::size_t first);
-inline constexpr std::size_t any = ~std::size_t{0};  ///< a size that may be what it is
+inline constexpr std::size_t any = ~std::size_t{0};  ///< a size that is not checked
 
 struct Label {
   std::string units;  ///< "1" for pure numbers
   std::string description;
 };
 
-/// How a C++ value lies in a dataset: `count` numbers of `type`.
+/// How a dataset stores a C++ value: as `count` numbers of `type`.
 template <class T>
 struct Element;
 template <>
@@ -101,49 +101,49 @@ class File;
 
 class Dataset {
  public:
-  Dataset() = default;  ///< none: false
+  Dataset() = default;  ///< an invalid dataset, which converts to false
 
   explicit operator bool() const noexcept { return id_.get() >= 0; }
   [[nodiscard]] const Shape& shape() const noexcept { return shape_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
-  /// The whole dataset. @pre as many numbers as the shape has. @throws FileError
+  /// Writes the whole dataset. @pre as many numbers as the shape has. @throws FileError
   template <class T>
   void write(std::span<const T> values) {
     write_all(values.data(), Element<T>::type, values.size() * Element<T>::count);
   }
-  /// Row `row` of the first dimension. @pre as many numbers as a row has. @throws FileError
+  /// Writes row `row` of the first dimension. @pre as many numbers as a row. @throws FileError
   template <class T>
   void write_row(std::size_t row, std::span<const T> values) {
     write_one(row, values.data(), Element<T>::type, values.size() * Element<T>::count);
   }
-  /// Numbers are converted to T. @pre T divides the dataset or its row. @throws FileError
+  /// Reads and converts to T. @pre T divides the dataset or its row. @throws FileError
   template <class T>
   [[nodiscard]] std::vector<T> read() const {
     std::vector<T> values(n_numbers() / Element<T>::count);
     read_all(values.data(), Element<T>::type, values.size() * Element<T>::count);
     return values;
   }
-  /// The places [first, first + n) of the second dimension of row `row`, straight into `values`.
-  /// @pre n = values.size() * Element<T>::count over the numbers of a place. @throws FileError
+  /// Reads the entries [first, first + n) of the second dimension of row `row` into `values`.
+  /// @pre n = values.size() * Element<T>::count / numbers per entry. @throws FileError
   template <class T>
   void read_part(std::size_t row, std::size_t first, std::span<T> values) const {
     read_some(row, first, values.data(), Element<T>::type, values.size() * Element<T>::count);
   }
-  /// Makes room in the file for rows, or gives up those from `rows` on. @pre made by
-  /// File::create_rows, at most the rows given there. @throws FileError
+  /// Reserves space in the file for rows, or gives up those from `rows` on. @pre made by
+  /// File::create_rows, at most as many rows as given there. @throws FileError
   void resize(std::size_t rows);
 
-  /// The first rows of a dataset of the same name, shape of a row and type in another file.
-  /// @pre that many rows here. @throws FileError: fewer there, or of another kind
+  /// Copies the first rows of a dataset with the same name, row shape and type from another file.
+  /// @pre this one has that many rows. @throws FileError: fewer there, or of another kind
   void copy_rows(const File& from, std::size_t rows);
 
-  /// Hash of the rows written and copied so far, in the order in which they lie in the file.
-  /// @pre made by File::create_rows; each row was written once, in turn
+  /// Hash of the rows written and copied so far, in their order in the file.
+  /// @pre made by File::create_rows; each row was written once, in order
   [[nodiscard]] std::string hash_of_written() const;
   /// Hash of the first rows, read from the file. @throws FileError: cannot be read
   [[nodiscard]] std::string hash_of_rows(std::size_t rows) const;
-  /// The first of these rows that has a number which is not finite, if any.
+  /// The first of these rows that contains a number that is not finite, if any.
   [[nodiscard]] std::optional<std::size_t> first_not_finite(std::size_t rows) const;
 
   [[nodiscard]] Label label() const;  ///< @throws FileError
@@ -166,30 +166,30 @@ class Dataset {
   std::string file_, name_;
   Shape shape_;
   Handle id_, file_space_;
-  Handle row_space_;             ///< of a row or a part of it: its extent changes with each call
-  std::optional<Hash> written_;  ///< only where it was made by File::create_rows
+  Handle row_space_;             ///< of a row or a part of it; its extent changes with each call
+  std::optional<Hash> written_;  ///< only if made by File::create_rows
 };
 
 class File {
  public:
   File() = default;
-  /// Replaces what was there. The first `index_bytes` are kept for the file's own index, of which a
-  /// row of create_rows() takes about `bytes_of_entry`: with room for all, rows given up at the end
-  /// leave nothing behind them and the file becomes shorter. @throws FileError
+  /// Replaces an existing file. The first `index_bytes` are reserved for the file's own index, in
+  /// which a row of create_rows() takes about `bytes_of_entry`. With room for all rows, giving up
+  /// rows at the end leaves no gap, and the file becomes shorter. @throws FileError
   static File create(const std::filesystem::path& path, std::size_t index_bytes = 0);
-  /// The same for a file that begins with so many bytes which are not HDF5's: a power of two, 512
-  /// at least.
+  /// The same for a file that begins with `bytes` that do not belong to HDF5: a power of two, at
+  /// least 512.
   static File create_after(const std::filesystem::path& path, std::size_t bytes);
   static constexpr std::size_t bytes_of_entry = 100;
-  /// To read only, without copies of what is read. @throws FileError: missing, not HDF5, truncated
+  /// Opens for reading only, without a cache. @throws FileError: missing, not HDF5, truncated
   static File open(const std::filesystem::path& path);
 
   explicit operator bool() const noexcept { return id_.get() >= 0; }
 
-  /// Of fixed size; it makes its groups itself. @throws FileError
+  /// Creates a dataset of fixed size, with its groups. @throws FileError
   Dataset create(const std::string& name, Type type, const Shape& shape, const Label& label);
-  /// To be written row by row, for at most shape[0] rows; has none until resize(), which gives all
-  /// of them their place in the file. What is written to a row goes straight to the operating
+  /// Creates a dataset that is written row by row, for at most shape[0] rows; it has none until
+  /// resize(), which allocates all of them in the file. A row is written directly to the operating
   /// system and changes nothing else in the file. @pre shape without zeros. @throws FileError
   Dataset create_rows(const std::string& name, Type type, const Shape& shape, const Label& label);
   /// create() and Dataset::write() at once. @throws FileError
@@ -205,12 +205,12 @@ class File {
   }
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
-  /// What errors of this file and of its datasets to come call it: its name once it is renamed.
+  /// Sets the name used in errors of this file and its future datasets: the name after renaming.
   void call_it(const std::filesystem::path& path) { path_ = path.string(); }
   [[nodiscard]] bool contains(const std::string& name) const;
   [[nodiscard]] Dataset dataset(const std::string& name) const;  ///< @throws FileError: none such
-  /// Of a file that may be damaged or not ours. @param shape wanted, `any` where all will do.
-  /// @throws FileError: none such, of another shape, larger than the file
+  /// Opens a dataset of a file that may be damaged or foreign. @param shape required; `any` accepts
+  /// all. @throws FileError: missing, of another shape, larger than the file
   [[nodiscard]] Dataset dataset(const std::string& name, const Shape& shape) const;
   template <class T>
   [[nodiscard]] std::vector<T> read(const std::string& name) const {
@@ -221,8 +221,8 @@ class File {
   void set_attribute(const std::string& object, const std::string& name, const std::string& text);
   [[nodiscard]] std::string attribute(const std::string& object, const std::string& name) const;
 
-  void flush();  ///< everything to the operating system. @throws FileError
-  void close();  ///< @pre no Dataset of it is alive. @throws FileError
+  void flush();  ///< passes everything to the operating system. @throws FileError
+  void close();  ///< @pre none of its Datasets is alive. @throws FileError
 
  private:
   static File create(const std::filesystem::path& path, const Handle& creation,
@@ -235,8 +235,8 @@ class File {
   Handle id_;
 };
 
-/// Chunk of a dataset written by rows: one row, or a part of it where a row is longer than `limit`
-/// bytes, or some where it is tiny.
+/// Chunk of a dataset written by rows: one row, a part of a row that is longer than `limit` bytes,
+/// or several rows if they are tiny.
 Shape chunk_shape(const Shape& shape, std::size_t bytes_per_number, std::size_t limit = 1U << 30U);
 
 std::size_t bytes_of(Type type) noexcept;

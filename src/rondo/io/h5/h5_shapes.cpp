@@ -6,8 +6,8 @@
 namespace rondo::io::h5 {
 namespace {
 
-constexpr std::size_t tiny_row = 512;        ///< rows below are put together in chunks [bytes]
-constexpr std::size_t rows_together = 1024;  ///< so many of them
+constexpr std::size_t tiny_row = 512;        ///< shorter rows share a chunk [bytes]
+constexpr std::size_t rows_together = 1024;  ///< number of rows in such a chunk
 
 }  // namespace
 

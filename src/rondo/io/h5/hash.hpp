@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A hash of bytes: XXH3, 128 bits. Against damage, not against malice.
+/// @file  A hash of bytes: XXH3, 128 bits. It detects damage, not deliberate changes.
 #pragma once
 #include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
 
-struct XXH3_state_s;  // of the library
+struct XXH3_state_s;  // defined by the library
 
 namespace rondo::io {
 
@@ -19,7 +19,7 @@ class Hash {
   void add(std::span<T, N> values) {
     add(std::span<const std::byte>(std::as_bytes(values)));
   }
-  /// Of all that was added: 32 hexadecimal digits.
+  /// Hash of all data added: 32 hexadecimal digits.
   [[nodiscard]] std::string text() const;
 
  private:

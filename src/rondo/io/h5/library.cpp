@@ -7,7 +7,7 @@ namespace rondo::io::h5 {
 
 namespace {
 
-/// Innermost message of HDF5's error stack; of a system call only what the system said.
+/// Innermost message of HDF5's error stack; for a system call only the system's message.
 std::string reason() {
   std::string text;
   const auto visit = [](unsigned, const H5E_error2_t* error, void* out) -> herr_t {

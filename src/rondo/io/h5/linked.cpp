@@ -16,9 +16,9 @@ namespace {
 
 constexpr const char* called = "HDF5 file in memory";
 constexpr hsize_t rows_of_chunk = 1024;
-constexpr std::size_t memory_step = 1U << 16U;  ///< by which the memory grows [bytes]
+constexpr std::size_t memory_step = 1U << 16U;  ///< increment of the memory [bytes]
 
-/// Of no file, but HDF5 tells its open files apart by their names.
+/// There is no file of that name, but HDF5 distinguishes open files by their names.
 std::string next_name() {
   static std::atomic<unsigned long> number{0};
   return fmt::format("rondo-memory-{}", ++number);
@@ -34,7 +34,7 @@ Handle dataset_properties() {
   return properties;
 }
 
-/// Numbers [first, first + count) of the nodes of the first rows of the source.
+/// Selects numbers [first, first + count) of the nodes in the first rows of the source.
 Handle source_space(const Shown& s, std::size_t first, std::size_t count) {
   Shape shape = {s.rows, s.nodes};
   std::vector<hsize_t> start = {0, 0}, size = {s.rows, s.nodes};
@@ -50,7 +50,7 @@ Handle source_space(const Shown& s, std::size_t first, std::size_t count) {
   return space;
 }
 
-/// Columns [first, first + count) of what is shown.
+/// Selects columns [first, first + count) of the shown dataset.
 Handle shown_space(const Shape& shape, std::size_t first, std::size_t count) {
   std::vector<hsize_t> start = {0}, size = {shape[0]};
   if (shape.size() > 1) {

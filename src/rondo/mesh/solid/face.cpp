@@ -16,7 +16,7 @@ std::array<Vec3, 4> face_shares(const std::array<Vec3, 4>& x) noexcept {
       along_xi += 0.25 * corner[i].x * (1 + corner[i].y * xi.y) * x[i];
       along_eta += 0.25 * corner[i].y * (1 + corner[i].x * xi.x) * x[i];
     }
-    const Vec3 normal = cross(along_xi, along_eta);  // of unit weight at each of 2×2 points
+    const Vec3 normal = cross(along_xi, along_eta);  // with unit weight at each of 2×2 points
     for (std::size_t i = 0; i < 4; ++i)
       share[i] += 0.25 * (1 + corner[i].x * xi.x) * (1 + corner[i].y * xi.y) * normal;
   }

@@ -18,7 +18,7 @@ inline std::array<Vec3, 4> face_corners(const Mesh& mesh, const Face& face) noex
           place_of(mesh, face[3])};
 }
 
-/// ∫ N_i n dA with the outward normal n: what each corner has of the face [m²].
+/// ∫ N_i n dA with the outward normal n: the share of each corner in the area vector [m²].
 std::array<Vec3, 4> face_shares(const std::array<Vec3, 4>& x) noexcept;
 
 }  // namespace rondo::mesh

@@ -13,7 +13,7 @@
 namespace rondo::mesh {
 namespace {
 
-/// The lines of a sector: the section's nodes at one angle.
+/// The lines of nodes of a sector: each has the section's nodes at one angle.
 struct Lines {
   int nodes_per_sector = 0;
   std::vector<std::vector<int>> number;  ///< [line][node of the section] in the sector; -1: none
@@ -38,13 +38,13 @@ class Sweep {
   }
 
  private:
-  /// Of `column` of a sector.
+  /// Whether `column` of a sector has the cell.
   [[nodiscard]] bool kept(int column, std::size_t cell) const {
     const auto place = static_cast<std::size_t>(column) * section_.cells.size() + cell;
     return columns_.kept.empty() || columns_.kept[place] != 0;
   }
 
-  /// A line has the nodes of the cells on either side of it.
+  /// A line gets the nodes of the cells on either side of it.
   void number_lines() {
     const auto n = static_cast<std::size_t>(columns_.columns);
     std::vector<std::vector<char>> used(n, std::vector<char>(section_.n_nodes(), 0));
@@ -62,8 +62,8 @@ class Sweep {
     }
   }
 
-  /// Node of the mesh on the line that begins column `column` of a sector; `column` may be one past
-  /// the last.
+  /// The node of the mesh on the line at which column `column` of a sector begins; `column` may be
+  /// one past the last.
   [[nodiscard]] int node(int sector, int column, int of_section) const {
     const int line = column % columns_.columns;
     const int there = (sector + column / columns_.columns) % columns_.n_sectors;
@@ -90,7 +90,7 @@ class Sweep {
     }
   }
 
-  /// visit(sector, column), counter-clockwise from -90°.
+  /// Calls visit(sector, column), counter-clockwise from -90°.
   template <class Visit>
   void each_column(const Visit& visit) const {
     for (int s = 0; s < columns_.n_sectors; ++s)
@@ -101,8 +101,8 @@ class Sweep {
     each_column([&](int s, int c) {
       for (std::size_t e = 0; e < section_.cells.size(); ++e) {
         if (!kept(c, e)) continue;
-        const Cell& cell = section_.cells[e];  // counter-clockwise in (r, z): clockwise seen along
-        Hexahedron h{};                        // the way around
+        const Cell& cell = section_.cells[e];  // counter-clockwise in (r, z), which is clockwise
+        Hexahedron h{};                        // when seen along the way around
         for (std::size_t i = 0; i < 4; ++i) {
           const int corner = cell[(4 - i) % 4];
           h[i] = node(s, c, corner);
@@ -114,7 +114,7 @@ class Sweep {
     });
   }
 
-  /// What the edges of the boundary sweep where their cells are.
+  /// The faces that edges of the section's boundary sweep, where their cells exist.
   [[nodiscard]] std::vector<Face> swept(std::span<const Edge> edges) const {
     std::vector<Face> faces;
     each_column([&](int s, int c) {
@@ -134,7 +134,7 @@ class Sweep {
     }
   }
 
-  /// Nodes of the contact surface that nothing holds, each with its share of the faces around it.
+  /// Adds the free nodes of the contact surface, each with its share of the adjacent faces.
   void add_candidates(std::string_view contact, Mesh& mesh) const {
     const auto surface = std::ranges::find(mesh.surfaces, contact, &Surface::name);
     if (surface == mesh.surfaces.end()) return;

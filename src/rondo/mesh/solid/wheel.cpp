@@ -10,7 +10,7 @@
 namespace rondo::mesh {
 namespace {
 
-/// Places that axial lines must have: the faces and the edges of the grooves, ascending.
+/// z of required axial lines: the side faces and the edges of the grooves, ascending.
 std::vector<double> fixed_lines(const Wheel& wheel) {
   const double half = 0.5 * wheel.width, near = 1e-9 * wheel.width;
   std::vector<double> z{-half, half};
@@ -23,8 +23,8 @@ std::vector<double> fixed_lines(const Wheel& wheel) {
   return z;
 }
 
-/// Elements between the fixed lines: where they are widest the next is added; on both sides at once
-/// where the lines are their own mirror image, or, if one is left, in the middle.
+/// Numbers of elements between the fixed lines. Each further element is added where they are
+/// widest: on both sides at once if the lines are symmetric, or in the middle if one is left.
 std::vector<int> elements_between(const std::vector<double>& fixed, int axial) {
   const std::size_t parts = fixed.size() - 1;
   bool mirrored = true;
@@ -49,15 +49,15 @@ std::vector<int> elements_between(const std::vector<double>& fixed, int axial) {
   return n;
 }
 
-/// Distance by which the crown lies below the middle.
+/// Distance by which the crown lies below its middle.
 double drop(const Wheel& wheel, double z) {
   if (!wheel.crown_radius) return 0.0;
   const double r = *wheel.crown_radius;
   return z * z / (r + std::sqrt(r * r - z * z));
 }
 
-/// Layer after layer from the rim outwards, across the width in each. The crown's drop grows from
-/// the rim to the ground of the tread, whose depth it leaves alone.
+/// Nodes layer after layer from the rim outwards, each layer across the width. The drop of the
+/// crown grows from the rim to the base of the tread, so that the tread's depth is constant.
 void add_nodes(const Wheel& wheel, const std::vector<double>& z, Mesh& mesh) {
   const std::vector<double> radii = layer_radii(wheel.disk);
   const double rim = radii.front(), base = radii[static_cast<std::size_t>(wheel.disk.radial)];
@@ -91,7 +91,7 @@ std::vector<double> axial_lines(const Wheel& wheel) {
   for (std::size_t i = 0; i < n.size(); ++i) {
     const double middle = 0.5 * (fixed[i] + fixed[i + 1]), width = fixed[i + 1] - fixed[i];
     for (int k = 1; k < n[i]; ++k)
-      z.push_back(middle + width * (2 * k - n[i]) / (2.0 * n[i]));  // mirrored to the last bit
+      z.push_back(middle + width * (2 * k - n[i]) / (2.0 * n[i]));  // bitwise symmetric
     z.push_back(fixed[i + 1]);
   }
   return z;

@@ -12,10 +12,10 @@ namespace {
 
 using contact::Status;
 
-/// Passes over the two facets of a node, at the most.
+/// Largest number of passes over the two facets of a node.
 constexpr int most_passes = 1000;
 
-/// The frame of a contact: rows n, J n and t2, in the axes of the wheel.
+/// The contact frame: rows n, J n and t2, in the axes of the wheel.
 struct Frame {
   Vec3 normal, tangent, lateral;
 
@@ -32,7 +32,7 @@ struct Frame {
   }
 };
 
-/// What a node's impulses do to its velocity of the step to come, axes of the wheel.
+/// Effect of a node's impulses on its velocity in the next step, in the axes of the wheel.
 struct Mobility {
   Complex plane;  ///< [1/kg]
   double axial;
@@ -48,7 +48,7 @@ std::array<Vec3, 3> delassus(const Mobility& w, const Frame& a, const Frame& b) 
           Vec3{columns[0].z, columns[1].z, columns[2].z}};
 }
 
-/// @return the law's solution converged
+/// @return whether the solution of the law converged
 bool solve_one(const Mobility& w, const Frame& frame, Vec3 free, double friction,
                ActiveContact& c) noexcept {
   const auto solution =
@@ -58,7 +58,7 @@ bool solve_one(const Mobility& w, const Frame& frame, Vec3 free, double friction
   return solution.converged;
 }
 
-/// One facet after the other, until neither changes. @return they came to rest
+/// Solves one facet after the other until neither changes. @return whether that was reached
 bool solve_in_turn(const Mobility& w, std::span<const Frame> frames, double friction,
                    std::span<ActiveContact> contacts) noexcept {
   bool still = false;
@@ -76,7 +76,7 @@ bool solve_in_turn(const Mobility& w, std::span<const Frame> frames, double fric
   return still;
 }
 
-/// By cases; in turn where none of them is accepted.
+/// Solves by cases; if none is accepted, in turn.
 void solve_two(const Mobility& w, std::span<const Frame> frames, double friction,
                std::span<ActiveContact> contacts, ContactReport& report) noexcept {
   const ActiveContact &a = contacts[0], &b = contacts[1];
@@ -108,7 +108,7 @@ Vec3 velocity_before(const SolidContactStep& s, Vec3 arm, Vec3 before) noexcept 
   return Vec3(turning, before.z) + s.center_rate_before;
 }
 
-/// v⁺, turning frame; sticking is exact.
+/// v⁺, rotating frame; sticking is exact.
 Vec3 corrected_velocity(const SolidContactStep& s, const SolidContactNode& node, Vec3 drive,
                         std::span<const Frame> frames,
                         std::span<const ActiveContact> contacts) noexcept {
@@ -127,7 +127,7 @@ Vec3 corrected_velocity(const SolidContactStep& s, const SolidContactNode& node,
 
 void add_works(const SolidContactStep& s, const SolidContactNode& node, Vec3 after, Vec3 push,
                const ActiveContact& c, ContactReport& report) noexcept {
-  const Vec3 impulse{conj(s.plane.rotation) * push.plane(), push.z};  // turning frame
+  const Vec3 impulse{conj(s.plane.rotation) * push.plane(), push.z};  // rotating frame
   const double work = dot(impulse, 0.5 * (node.before + after));
   const Vec3 mean = 0.5 * (c.before + c.after), r = c.impulse;
   report.work += work;

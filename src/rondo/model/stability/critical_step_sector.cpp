@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Largest eigenvalue over all harmonics of a body of equal sectors (docs/theory.md, 3.8). All
-/// eigenvalues of harmonic k are below σ exactly where σI - A(k) is positive definite, which its
-/// Cholesky factorisation tells.
+/// eigenvalues of harmonic k are below σ if and only if σI - A(k) is positive definite, which its
+/// Cholesky factorisation shows.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -21,14 +21,14 @@ namespace {
 using Eigen::Index;
 using Matrix = fem::Harmonics::Matrix;
 
-/// Relative width of the interval in which the largest eigenvalue is enclosed: three factorisations
-/// for each digit, of the few harmonics that raise it.
+/// Relative width of the interval that encloses the largest eigenvalue: three factorisations for
+/// each digit, of the few harmonics that raise it.
 constexpr double enclosure_width = 1e-6;
-/// Of all factorisations, some seconds; above it Lanczos, several times as fast, has to do.
+/// Limit for all factorisations, some seconds; above it Lanczos is used, several times as fast.
 constexpr double most_operations = 1e10;
 
-/// All harmonics from the last on, far from the ones before: the first few meet the largest
-/// eigenvalue nearly, and few of those that follow raise it.
+/// All harmonics in an order from the last on, in which successive ones are far apart: the first
+/// few nearly reach the largest eigenvalue, and few of the following raise it.
 std::vector<int> scattered(int count) {
   int stride = std::max(1, static_cast<int>(std::lround(0.618 * count)));
   while (std::gcd(stride, count) != 1) ++stride;
@@ -38,18 +38,18 @@ std::vector<int> scattered(int count) {
   return order;
 }
 
-/// Upper bound of all eigenvalues of the harmonics shown to it.
+/// Upper bound of all eigenvalues of the harmonics that were included.
 class Enclosure {
  public:
-  /// @param limit a bound known beforehand.
+  /// @param limit a bound known in advance.
   Enclosure(fem::Harmonics& harmonics, double limit) : harmonics_(harmonics), limit_(limit) {
-    cholesky_.compute(harmonics.lower(0, 0.0, 1.0));  // 1, but with the places of the others
+    cholesky_.compute(harmonics.lower(0, 0.0, 1.0));  // the identity, in the common pattern
     rounding_ = cholesky_rounding(longest(cholesky_.matrixL().nestedExpression()));
   }
 
   void include(int harmonic) {
     if (upper_ > 0.0 && all_below(harmonic, upper_)) return;
-    // A diagonal entry is a Rayleigh quotient.
+    // A diagonal entry is a Rayleigh quotient, hence a lower bound.
     const double first = lower_ = std::max(upper_, largest_diagonal(harmonic));
     upper_ = limit_;
     for (double reach = enclosure_width; reach < 1.0; reach *= 4.0) {
@@ -67,12 +67,12 @@ class Enclosure {
     }
   }
 
-  /// What rounding may have hidden from the factorisations included.
+  /// The bound, including what rounding may have hidden from the factorisations.
   [[nodiscard]] double upper() const noexcept { return upper_ * (1.0 + rounding_); }
   [[nodiscard]] double width() const noexcept { return (upper_ - lower_) / upper_; }
 
  private:
-  /// Most numbers in a row or column. The order of the unknowns is that of the factorisation.
+  /// Largest number of entries in a row or column. Unknowns are ordered as in the factorisation.
   static Index longest(const Matrix& factor) {
     std::vector<Index> row(static_cast<std::size_t>(factor.rows()));
     Index most = 0;
@@ -99,7 +99,7 @@ class Enclosure {
   Eigen::SimplicialLLT<Matrix, Eigen::Lower> cholesky_;
 };
 
-/// Floating-point operations of the enclosure, about: as if by factorisations of bands.
+/// Approximate floating-point operations of the enclosure, as for factorisations of bands.
 /// @param included harmonics
 double operations(fem::Harmonics& harmonics, int included) {
   const Matrix& a = harmonics.lower(0, 0.0, 1.0);
@@ -111,7 +111,7 @@ double operations(fem::Harmonics& harmonics, int included) {
   return factorisations * 4.0 * static_cast<double>(a.rows()) * b * b;
 }
 
-/// Of one harmonic. The real form of a Hermitian matrix has its eigenvalues, each twice.
+/// Largest Ritz pair of one harmonic, by the real form of the matrix, which has eigenvalues twice.
 std::optional<RitzPair> largest_of(fem::Harmonics& harmonics, int harmonic) {
   using Vector = Eigen::VectorXcd;
   const Matrix& a = harmonics.lower(harmonic, 1.0, 0.0);
@@ -123,7 +123,7 @@ std::optional<RitzPair> largest_of(fem::Harmonics& harmonics, int harmonic) {
   return largest_ritz_pair({2 * a.rows(), product});
 }
 
-/// Largest Ritz value plus residual of all harmonics.
+/// Largest sum of Ritz value and residual over all harmonics.
 std::optional<RitzPair> largest_of_all(fem::Harmonics& harmonics) {
   RitzPair largest;
   for (int k = 0; k < harmonics.count(); ++k) {
@@ -134,7 +134,7 @@ std::optional<RitzPair> largest_of_all(fem::Harmonics& harmonics) {
   return largest;
 }
 
-/// The bound is a number above 0, and so are the entries numbers.
+/// Whether the bound is positive and finite and the entries are finite.
 bool in_range(fem::Harmonics& harmonics, double element_eigenvalue_bound) {
   return element_eigenvalue_bound > 0.0 && std::isfinite(element_eigenvalue_bound) &&
          std::isfinite(harmonics.lower(0, 1.0, 0.0).norm());

@@ -11,11 +11,11 @@ namespace rondo::dynamics {
 namespace {
 
 /// Relative residual at which Lanczos stops. It is added to the eigenvalue, whose own error is
-/// smaller, so it only shortens the step, by half of it at the most (docs/decisions/008).
+/// smaller, so that it only shortens the step, by at most half of it (docs/decisions/008).
 constexpr double lanczos_tolerance = 1e-3;
 constexpr Eigen::Index lanczos_vectors = 20;
 
-/// As Spectra wants it.
+/// The interface that Spectra requires.
 struct Product {
   using Scalar = double;
   const SymmetricOperator& a;
@@ -27,13 +27,13 @@ struct Product {
 }  // namespace
 
 std::optional<RitzPair> largest_ritz_pair(const SymmetricOperator& a) {
-  if (a.size < 2) return std::nullopt;  // masses that are 0 in numbers
+  if (a.size < 2) return std::nullopt;  // masses that underflow to 0
   Product op{a};
   Spectra::SymEigsSolver<Product> lanczos(op, 1, std::min(lanczos_vectors, a.size));
   try {
     lanczos.init();
     lanczos.compute(Spectra::SortRule::LargestAlge, 300, lanczos_tolerance);
-  } catch (const std::exception&) {  // Spectra throws on numbers that it cannot work with
+  } catch (const std::exception&) {  // Spectra throws if numbers are not usable
     return std::nullopt;
   }
   if (lanczos.info() != Spectra::CompInfo::Successful) return std::nullopt;

@@ -17,8 +17,8 @@ struct RitzPair {
   double residual = 0.0;  ///< ‖A x - value x‖ [1/s²]
 };
 
-/// To a relative residual of 1e-3 (docs/decisions/008); nothing where Lanczos does not converge, or
-/// the numbers are out of range.
+/// Iterates to a relative residual of 1e-3 (docs/decisions/008). Returns nothing if Lanczos does
+/// not converge or the numbers are out of range.
 std::optional<RitzPair> largest_ritz_pair(const SymmetricOperator& a);
 
 }  // namespace rondo::dynamics

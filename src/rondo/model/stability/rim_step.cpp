@@ -14,7 +14,7 @@ double largest_eigenvalue(const Eigen::MatrixXd& a) {
   return std::max(0.0, solver.eigenvalues().maxCoeff());
 }
 
-/// D^-½ (Gᵀ A G + springs) D^-½.
+/// Values of D^-½ (Gᵀ A G + springs) D^-½.
 RimValues values_of(const StiffnessProduct& a_times, std::span<const Vec2> reference,
                     std::span<const int> free, const RimDofs& rim) {
   const auto rigid = [&](std::size_t dof, std::size_t node) {
@@ -39,7 +39,7 @@ RimValues values_of(const StiffnessProduct& a_times, std::span<const Vec2> refer
           largest_eigenvalue(scaled)};
 }
 
-/// Modes whose ω² and damping are at most those of the body and of the rim together.
+/// Lowers the step for modes whose ω² and damping are at most the sums of body and rim.
 void lower(CriticalStep& of, double body_square, double rim_square, double rim_mass,
            LaggedDamping damping) {
   damping.mass *= 1.0 + rim_mass;

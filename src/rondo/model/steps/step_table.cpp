@@ -66,7 +66,7 @@ constexpr std::uint32_t cyclic = bit(StepKind::cyclic), sparse = bit(StepKind::s
                         any = ~0U;
 
 constexpr std::array limits{
-    // What only some steps do -------------------------------------------------------------------
+    // What some steps do not support -------------------------------------------------------------
     Limit{has::three_dimensions, 0, plane | own_hati, "the step is for plane bodies"},
     Limit{has::mesh_file, 0, cyclic, "a mesh from a file is not known to have equal sectors"},
     Limit{has::assembled, 0, cyclic, "the stiffness is assembled, not that of one sector"},
@@ -89,7 +89,7 @@ constexpr std::array limits{
     Limit{has::hati, 0, plane, "the scheme \"hati\" has a step of its own"},
     Limit{has::other_scheme, 0, fused, "a scheme other than \"symplectic\" needs the general step"},
     Limit{has::reduced, 0, ~bit(StepKind::reduced), "a reduced model has a step of its own"},
-    // What no step does -------------------------------------------------------------------------
+    // What no step supports ----------------------------------------------------------------------
     Limit{has::free_bodies, has::three_dimensions, any,
           "a wheel in three dimensions is held by its rim"},
     Limit{has::body_contact, has::three_dimensions, any,
@@ -165,7 +165,7 @@ constexpr std::array limits{
     Limit{has::stress_stiffening, has::rubber, any, "rubber at finite strain includes it"},
     Limit{has::other_scheme, has::rubber, any, "rubber needs the scheme \"symplectic\""},
     Limit{has::hati, has::own_material, any, "the scheme \"hati\" needs linear materials"},
-    // What a reduced model does not do ----------------------------------------------------------
+    // What a reduced model does not support -----------------------------------------------------
     Limit{has::three_dimensions, has::reduced, any,
           "reduced models are for plane bodies, not for a wheel in three dimensions"},
     Limit{has::free_bodies, has::reduced, any,
@@ -261,10 +261,10 @@ StepKind step_of(const Model& model) {
 std::string step_text(Features all) {
   const StepRow* const chosen = choose_step(all);
   RONDO_DEMAND(chosen != nullptr, all);
-  std::vector<std::pair<const Limit*, std::string>> reasons;  // and the steps that have them
+  std::vector<std::pair<const Limit*, std::string>> reasons;  // with the steps that have them
   for (const StepRow* step = steps.data(); step != chosen; ++step) {
     const Limit* const why = why_not(step->kind, all);
-    if (why == nullptr || why->at == has::three_dimensions) continue;  // it is for other models
+    if (why == nullptr || why->at == has::three_dimensions) continue;  // made for other models
     if (reasons.empty() || reasons.back().first != why) reasons.emplace_back(why, "not ");
     std::string& not_by = reasons.back().second;
     not_by += fmt::format("{}{}", not_by == "not " ? "" : ", ", step->name);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What goes with what, as one table: the features that a model may have, the time steps
-/// that there are, and which step cannot do which features, with the reason in a sentence. The
-/// choice of the step, the refusals of combinations, `rondo check` and docs/cases.md ("What goes
-/// with what") read it. To let a step do more, take a row away; to add a feature, add its bit and
-/// its name.
+/// @file  The capabilities of the time steps as one table: the features that a
+/// model may have, the time steps, and which step cannot do which features, with
+/// the reason as a sentence. The choice of the step, the refusals of combinations,
+/// `rondo check` and docs/cases.md ("What goes with what") read it. To let a step
+/// do more, remove a row; to add a feature, add its bit and its name.
 #pragma once
 #include <cstdint>
 #include <span>
@@ -20,14 +20,14 @@ using Features = std::uint32_t;
 namespace has {
 enum Feature : Features {
   three_dimensions = 1U << 0,
-  camber = 1U << 1,  ///< or a slip angle, of a wheel in three dimensions
+  camber = 1U << 1,  ///< or a slip angle, for a wheel in three dimensions
   loaded_rim = 1U << 2,
   free_bodies = 1U << 3,
   body_contact = 1U << 4,
-  mesh_file = 1U << 5,  ///< of a case: not known to be of equal sectors
-  assembled = 1U << 6,  ///< K of the whole body, not of one sector
+  mesh_file = 1U << 5,  ///< of a case: it is not known whether its sectors are equal
+  assembled = 1U << 6,  ///< K is that of the whole body, not of one sector
   pressure = 1U << 7,
-  sharp_corners = 1U << 8,  ///< as has_sharp_corners()
+  sharp_corners = 1U << 8,  ///< like has_sharp_corners()
   rubber = 1U << 9,
   own_material = 1U << 10,  ///< InternalForce without a RubberPart
   implicit = 1U << 11,
@@ -37,32 +37,32 @@ enum Feature : Features {
   stiffness_damping = 1U << 15,
   stress_stiffening = 1U << 16,  ///< of a case
   plane_stress = 1U << 17,       ///< of a case
-  other_scheme = 1U << 18,       ///< than "symplectic"
-  hati = 1U << 19,               ///< and other_scheme as well
+  other_scheme = 1U << 18,       ///< any other than "symplectic"
+  hati = 1U << 19,               ///< sets other_scheme as well
   reduced = 1U << 20,            ///< a run of a reduced model
 };
 }  // namespace has
 
-/// A feature, or several together that deserve a line of their own, in the user's words.
+/// A feature, or a combination with a name of its own, in the user's words.
 struct FeatureName {
   Features of;
   std::string_view name;
 };
-/// A feature alone stands before what it is part of.
+/// Each single feature is listed before the combinations that contain it.
 [[nodiscard]] std::span<const FeatureName> feature_names() noexcept;
-/// Of the first that has all of these; empty: they have no name.
+/// Name of the first entry that has all of these; empty: they have no name.
 [[nodiscard]] std::string_view name_of(Features of) noexcept;
 
-/// The time steps, of those that can do the same the faster one first.
+/// The time steps; among those with the same capabilities, the faster one comes first.
 enum class StepKind {
   cyclic,        ///< integrators/fused
-  sparse,        ///< likewise
+  sparse,        ///< integrators/fused
   bodies,        ///< integrators/bodies
   wheel,         ///< integrators/general, on a loaded rim
   general,       ///< integrators/general
   hati,          ///< integrators/hati
   solid_cyclic,  ///< integrators/fused/solid
-  solid,         ///< integrators/solid: the reference that no model needs
+  solid,         ///< integrators/solid: the reference, which no model needs
   solid_wheel,   ///< integrators/solid, on a loaded rim
   reduced,       ///< rom
 };
@@ -70,17 +70,17 @@ enum class StepKind {
 struct StepRow {
   StepKind kind;
   std::string_view name;
-  Features needs;  ///< it is for models that have all of these
+  Features needs;  ///< the step is made for models with all of these features
 };
-/// In the order of StepKind.
+/// The time steps in the order of StepKind.
 [[nodiscard]] std::span<const StepRow> step_rows() noexcept;
 [[nodiscard]] const StepRow& row_of(StepKind kind) noexcept;
 
-/// What some steps cannot do.
+/// A combination of features that some steps cannot do.
 struct Limit {
   Features at;           ///< the feature that is refused
-  Features with;         ///< where these are there as well; 0: always
-  std::uint32_t not_by;  ///< steps, bit k: the StepKind k
+  Features with;         ///< only in combination with these; 0: always
+  std::uint32_t not_by;  ///< steps that cannot do it; bit k: the StepKind k
   std::string_view why;  ///< a sentence about these features
 
   [[nodiscard]] constexpr bool holds_for(Features all) const noexcept {
@@ -89,25 +89,25 @@ struct Limit {
   [[nodiscard]] constexpr bool excludes(StepKind kind) const noexcept {
     return ((not_by >> static_cast<unsigned>(kind)) & 1U) != 0;
   }
-  /// No step can do this.
+  /// Whether no step can do this.
   [[nodiscard]] constexpr bool is_refusal() const noexcept { return not_by == ~0U; }
 };
 [[nodiscard]] std::span<const Limit> step_limits() noexcept;
 
-/// The first reason why the step cannot do all of these, or is for others; null: it can.
+/// First reason why the step cannot do all of these or is made for others; null: it can.
 [[nodiscard]] const Limit* why_not(StepKind kind, Features all) noexcept;
-/// The step does all of these, and is made for them.
+/// Whether the step can do all of these and is made for them.
 [[nodiscard]] bool can(StepKind kind, Features all) noexcept;
-/// The fastest step that can do all; null: none can, and some Limit that holds is a refusal.
+/// The fastest step that can do all of them; null: none can, and a Limit that applies is a refusal.
 [[nodiscard]] const StepRow* choose_step(Features all) noexcept;
 
-/// What of these features is in the model: camber, pressures, ...
+/// The features of the model: camber, pressures, ...
 [[nodiscard]] Features features_of(const Model& model) noexcept;
-/// The step that make_integrator() takes. @pre some step can do the model
+/// The step that make_integrator() uses. @pre some step can do the model
 [[nodiscard]] StepKind step_of(const Model& model);
 
-/// "general (not fused cyclic, fused sparse: contact between bodies)": the step, and why not the
-/// faster ones. @pre some step can do all
+/// "general (not fused cyclic, fused sparse: contact between bodies)": the step, and the reasons
+/// why the faster ones are not used. @pre some step can do all of these
 [[nodiscard]] std::string step_text(Features all);
 
 }  // namespace rondo::dynamics

@@ -208,8 +208,8 @@ NodeVector<D> RollingHarmonics<D>::displacement(std::size_t a, int sample,
 }
 
 template <int D>
-RollingHarmonics<D>::Block RollingHarmonics<D>::spectrum(const Eigen::MatrixXd& force,
-                                                         RollingGravity g) const {
+typename RollingHarmonics<D>::Block RollingHarmonics<D>::spectrum(const Eigen::MatrixXd& force,
+                                                                  RollingGravity g) const {
   const std::size_t length = at(turn_), half = length / 2 + 1, n = D * n_candidates();
   RONDO_DEMAND(at(force.rows()) == n && at(force.cols()) == length, force.rows(), force.cols());
   const OneBlasThread one_thread;
@@ -252,7 +252,7 @@ Eigen::MatrixXd RollingHarmonics<D>::fields(Eigen::Ref<const Block> spectrum, do
 }
 
 template <int D>
-RollingHarmonics<D>::Damped RollingHarmonics<D>::damped(const Block& spectrum) const {
+typename RollingHarmonics<D>::Damped RollingHarmonics<D>::damped(const Block& spectrum) const {
   std::vector<RollingNorms> norms(at(spectrum.cols()));
 #pragma omp parallel for num_threads(body_.threads) schedule(static)
   for (Index k = 1; k < spectrum.cols(); ++k)

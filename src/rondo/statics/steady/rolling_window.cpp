@@ -57,8 +57,8 @@ void RollingWindow<D>::find_kernels() {
 }
 
 template <int D>
-RollingWindow<D>::Kernel RollingWindow<D>::kernel(std::size_t a, std::size_t b,
-                                                  int ahead) const noexcept {
+typename RollingWindow<D>::Kernel RollingWindow<D>::kernel(std::size_t a, std::size_t b,
+                                                           int ahead) const noexcept {
   Kernel k{harmonics_.compliance(a, b, ahead), NodeMatrix<D>::Zero()};
   for (std::size_t j = 0; j < weights_.size(); ++j) {
     const int by = problem_.back * static_cast<int>(j);
@@ -76,8 +76,8 @@ RollingWindow<D>::Kernel RollingWindow<D>::kernel(std::size_t a, std::size_t b,
 }
 
 template <int D>
-RollingWindow<D>::Kernel RollingWindow<D>::kernel(const RollingPair& of,
-                                                  const RollingPair& by) const noexcept {
+typename RollingWindow<D>::Kernel RollingWindow<D>::kernel(const RollingPair& of,
+                                                           const RollingPair& by) const noexcept {
   const int ahead = of.sample - by.sample;
   if constexpr (D == 3) return kernel(of.candidate, by.candidate, ahead);
   const std::size_t n = harmonics_.n_candidates();

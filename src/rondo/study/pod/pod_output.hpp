@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The files of a POD, from what was found (docs/results.md).
+/// @file  Writes the files of a POD (docs/results.md).
 #pragma once
 #include <filesystem>
 #include <vector>
@@ -10,7 +10,7 @@
 
 namespace rondo::study {
 
-/// What a POD found, apart from the snapshots themselves.
+/// Result of a POD, without the snapshots themselves.
 struct PodResult {
   std::vector<SnapshotColumn> columns;
   pod::Decomposition d;
@@ -18,8 +18,8 @@ struct PodResult {
   pod::Identity identity;
 };
 
-/// All files but pod.json. The modes of `result` become those of the field, Φ = W^{-1/2} U, in the
-/// order of the mesh. @throws FileError
+/// Writes all files except pod.json. The modes of `result` become those of the field, Φ = W^{-1/2}
+/// U, in the order of the mesh. @throws FileError
 void write_pod_files(const PodRequest& request, const PodReport& report, RunSnapshots& snapshots,
                      PodResult& result);
 

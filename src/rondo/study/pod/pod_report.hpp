@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  From a decomposition to the figures of a POD, and to its pod.json.
+/// @file  From a decomposition to the results of a POD, and to its pod.json.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>
@@ -11,21 +11,21 @@
 
 namespace rondo::study {
 
-/// One entry a run: what of it was taken.
+/// One entry for each run: the snapshots that were used.
 std::vector<PodRun> describe_runs(const std::vector<io::RunReader>& runs,
                                   const std::vector<SnapshotColumn>& columns);
 
-/// Those of PodReport::counts that are kept: what the error identity is to look at besides.
+/// The counts of PodReport::counts that are kept, for which the error identity is also checked.
 std::vector<pod::Index> kept_counts(const pod::Spectrum& spectrum, pod::Index kept);
 
-/// @pre report.runs are there; the identity was looked at with kept_counts().
+/// @pre report.runs is filled; the identity was checked with kept_counts().
 void add_figures(PodReport& report, const PodResult& found);
 
-/// What the figures say against the modes: the error identity does not hold, or they are not
-/// orthonormal. Empty: nothing.
+/// Reasons to doubt the modes: the error identity is violated, or they are not orthonormal. Empty:
+/// none.
 std::string trouble_in(const PodReport& report);
 
-/// Norm of an error over that of what it is of; 0 where that is 0.
+/// Norm of an error divided by that of the quantity; 0 if that is 0.
 double relative_error(double squared_error, double energy) noexcept;
 
 nlohmann::ordered_json as_json(const PodRequest& request, const PodReport& report);

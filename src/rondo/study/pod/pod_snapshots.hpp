@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The snapshots of runs as the matrix of a POD: chosen by time, moved to the frame asked
-/// for, weighted, read when needed (docs/theory.md, 7.1 and 7.3).
+/// @file  The snapshots of runs as the matrix of a POD: chosen by time, moved to the requested
+/// frame, weighted, read when needed (docs/theory.md, 7.1 and 7.3).
 #pragma once
 #include <optional>
 #include <span>
@@ -17,9 +17,9 @@ enum class Weight { mass, delassus, none };
 /// One snapshot of one run.
 struct SnapshotColumn {
   std::size_t run = 0, snapshot = 0;
-  double time = 0.0;    ///< the field's own                                               [s]
-  double angle = 0.0;   ///< of the turning frame at that time                             [rad]
-  double weight = 1.0;  ///< by which the snapshot is multiplied
+  double time = 0.0;    ///< of the field itself                                             [s]
+  double angle = 0.0;   ///< of the rotating frame at that time                             [rad]
+  double weight = 1.0;  ///< factor of the snapshot
 };
 
 struct SnapshotChoice {
@@ -28,11 +28,11 @@ struct SnapshotChoice {
   std::optional<pod::Shift> rectified;  ///< none: the rotating frame
 };
 
-/// Rows are components·i + component, i the place of a point in order(): ring after ring in the
-/// rectified frame, so that blocks of rows can be rectified by themselves.
+/// Rows are components·i + component, where i is the index of a point in order(): ring after ring
+/// in the rectified frame, so that blocks of rows can be rectified separately.
 class RunSnapshots final : public pod::SnapshotMatrix {
  public:
-  /// @pre all runs have the same mesh and outlive this; rectified only where it has sectors.
+  /// @pre all runs have the same mesh and outlive this; rectified only if the mesh has sectors.
   RunSnapshots(std::span<const io::RunReader> runs, std::vector<SnapshotColumn> columns,
                const SnapshotChoice& choice);
 
@@ -43,14 +43,14 @@ class RunSnapshots final : public pod::SnapshotMatrix {
   void read_columns(pod::Index first, Eigen::Ref<Eigen::MatrixXd> out) override;
   void read_rows(pod::Index first, Eigen::Ref<Eigen::MatrixXd> out) override;
 
-  /// The first run: its mesh is that of all.
+  /// The first run; all runs have its mesh.
   [[nodiscard]] const io::RunReader& run() const noexcept { return runs_.front(); }
   /// (n_points) W of each point, in the order of the mesh (or of its boundary).
   [[nodiscard]] const std::vector<double>& weight() const noexcept { return weight_; }
-  /// Numbers of a point: 2 in the plane, 3 in three dimensions.
+  /// Numbers per point: 2 in the plane, 3 in three dimensions.
   [[nodiscard]] std::size_t components() const noexcept { return components_; }
-  /// Rows of a weighted field become numbers (components·point + component) of the field itself, in
-  /// place.
+  /// Converts rows of a weighted field in place to numbers (components·point + component) of the
+  /// field itself.
   void unweight(Eigen::Ref<Eigen::VectorXd> rows);
 
  private:
@@ -65,13 +65,13 @@ class RunSnapshots final : public pod::SnapshotMatrix {
   std::vector<SnapshotColumn> columns_;
   SnapshotChoice choice_;
   pod::Rings rings_;            ///< empty: rotating
-  std::vector<int> order_;      ///< (n_points) point at each place
+  std::vector<int> order_;      ///< (n_points) point at each index of the order
   std::vector<double> weight_;  ///< (n_points)
   std::vector<double> root_;    ///< (n_points) √W in order
   std::size_t components_ = 2;
   std::vector<Vec2> row_, field_;  ///< (n_points) as read; in order
-  /// (n_points) the third components of both; (n_points, 3) as they are in the file. Empty in the
-  /// plane.
+  /// (n_points) the third components of both;
+  /// (n_points, 3) as in the file. Empty in the plane.
   std::vector<double> axial_row_, axial_, numbers_;
   std::optional<pod::Rectifier> rectifier_;
   std::size_t rectifier_rings_ = 0;

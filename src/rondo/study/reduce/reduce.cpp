@@ -82,7 +82,7 @@ void check_run(const io::RunReader& run, const Case& c) {
                         "the body is rubber at finite strain, and a reduced run is of small strain",
                         "runs with material.model = \"linear\"");
   if (!c.pressures.empty())
-    throw request_error("RUN", name, "a reduced run knows no pressures on the body",
+    throw request_error("RUN", name, "a reduced run does not support pressures on the body",
                         "runs without [[load.pressure]]");
   if (!is_steady(run) && run.n_snapshots() < 2)
     throw request_error("RUN", name, fmt::format("{} snapshots make no model", run.n_snapshots()),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  `rondo reduce`: from the snapshots of one or several runs to a reduced model that
-/// `rondo run --reduced` runs (docs/reduced.md).
+/// @file  `rondo reduce`: makes a reduced model for `rondo run --reduced` from the snapshots of one
+/// or several runs (docs/reduced.md).
 #pragma once
 #include <filesystem>
 #include <functional>
@@ -12,50 +12,50 @@
 
 namespace rondo::study {
 
-/// Measured to be enough for forces on three meshes (docs/reduced.md, 8).
+/// Measured to be sufficient for forces on three meshes (docs/reduced.md, 8).
 inline constexpr long long default_displacement_modes = 30, default_velocity_modes = 30;
 
-/// Round the disk: more resolve a contact that spans a twentieth of it no better, and cost more.
+/// Around the disk: more points resolve a contact that spans 1/20 of it no better, and cost more.
 inline constexpr int enough_contact_points = 180;
-/// Fewer means of several nodes lie too far inside of the rim.
+/// With fewer, the means of several nodes lie too far inside the circumference.
 inline constexpr int least_contact_points = 48;
 
-/// What the user asks for, in the command line's words.
+/// The user's request in the words of the command line.
 struct ReduceRequest {
-  std::vector<std::filesystem::path> runs;  ///< results directories of one mesh and material
+  std::vector<std::filesystem::path> runs;  ///< results directories, same mesh and material
   std::filesystem::path output;             ///< the model's file
-  /// Of the two PODs; none: by the tolerances, and without these the default numbers.
+  /// Of the two PODs; none: by the tolerances, without which the default numbers are used.
   std::optional<long long> displacement_modes, velocity_modes;
   std::optional<double> displacement_tolerance, velocity_tolerance;  ///< energy left out
-  double contact_weight = 10.0;  ///< of what touches in the norm of the PODs, over that of the mass
+  double contact_weight = 10.0;    ///< of touched nodes in the norm of the PODs, relative to mass
   std::optional<double> from, to;  ///< window of the snapshots [s]
-  int contact_stride = 0;  ///< nodes of the boundary to a contact point; 0: as many as leave
+  int contact_stride = 0;  ///< nodes of the boundary per contact point; 0: such that there are
                            ///<     enough_contact_points
-  int contact_phases = 1;  ///< points to a node of the boundary; above 1 only without a stride
+  int contact_phases = 1;  ///< contact points per boundary node; above 1 only without a stride
   std::string frame = "rectified";  ///< or "co-rotating"
-  std::string contact;              ///< contact_names; empty: what suits the disk and the frame
-  bool error_estimate = true;       ///< leaves each run out in turn, where there are 3 or more
+  std::string contact;              ///< one of contact_names; empty: what suits the disk and frame
+  bool error_estimate = true;       ///< leave each run out in turn, if there are 3 or more
   std::string memory = "2GB";
   std::function<void(const std::string&)> warn;        ///< may be empty
-  std::function<void(long long, long long)> progress;  ///< done, of all; may be empty
+  std::function<void(long long, long long)> progress;  ///< done, total; may be empty
 };
 
-/// Of one of the two PODs.
+/// Result of one of the two PODs.
 struct ReducePart {
   std::string field;
   long long snapshots = 0, modes = 0;
-  double discarded = 0.0;  ///< share of the energy that the modes leave out
+  double discarded = 0.0;  ///< share of the energy outside the modes
 };
 
 struct ReduceReport {
   long long dofs = 0;   ///< of the full model
-  long long modes = 0;  ///< r: displacement modes, their derivatives by the angle, velocity modes
+  long long modes = 0;  ///< r: displacement modes, their angle derivatives, velocity modes
   ReducePart displacement, velocity;
-  double displacement_left = 0.0;      ///< share of the energy that all r modes leave out
-  double velocity_left = 0.0;          ///< likewise
+  double displacement_left = 0.0;      ///< share of the energy outside all r modes
+  double velocity_left = 0.0;          ///< share of the energy outside all r modes
   double full_critical_step = 0.0;     ///< [s]
-  double reduced_critical_step = 0.0;  ///< of explicit central differences on the modes [s]
-  double contact_step = 0.0;  ///< in which the fastest spin passes one contact point [s]; 0: none
+  double reduced_critical_step = 0.0;  ///< of explicit central differences with these modes [s]
+  double contact_step = 0.0;  ///< for the fastest spin to pass one contact point [s]; 0: none
   std::string contact;        ///< its form
   long long contact_points = 0;
   ErrorEstimate estimate;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What a shard leaves for --collect: SWEEP/shards/0003-of-0008/rows.json, written by the
-/// shard alone, whole or not at all.
+/// @file  The result of a shard for --collect: SWEEP/shards/0003-of-0008/rows.json. The shard alone
+/// writes it, completely or not at all.
 #pragma once
 #include <cstddef>
 #include <filesystem>
@@ -15,9 +15,9 @@
 
 namespace rondo::study {
 
-/// What a sweep is of, and by which program: the same for all shards of one.
+/// Identifies a sweep and the program that runs it; the same for all its shards.
 struct SweepIdentity {
-  std::string members_hash;           ///< what decides; the others tell what differs
+  std::string members_hash;           ///< decides; the others explain differences
   std::string study_hash, base_hash;  ///< of the files' texts
   std::vector<std::string> settings;  ///< of --set
   std::string version, build_id;
@@ -26,24 +26,24 @@ struct SweepIdentity {
 struct ShardFile {
   Shard shard;
   std::string status;  ///< "running", "done", "failed" (some runs did), "interrupted"
-  std::string host;    ///< that made it, or is making it
+  std::string host;    ///< that ran it or is running it
   long long process = 0;
   SweepIdentity identity;
-  std::vector<std::pair<std::size_t, MemberRow>> rows;  ///< members from 0; none while it runs
+  std::vector<std::pair<std::size_t, MemberRow>> rows;  ///< members from 0; empty while it runs
   double wall_s = 0.0;
 };
 
 [[nodiscard]] SweepIdentity identity_of(const SweepRequest& request, const SweepStudy& study,
                                         const PlannedSweep& plan);
 
-/// In words, what differs between a sweep that was found and this one; empty: nothing that counts.
+/// Describes the differences between a sweep that was found and this one; empty: none that matters.
 [[nodiscard]] std::string difference(const SweepIdentity& found, const SweepIdentity& own);
 
 /// SWEEP/shards/0003-of-0008
 [[nodiscard]] std::filesystem::path shard_directory(const std::filesystem::path& sweep,
                                                     const Shard& shard);
 
-/// Shards with a folder in the sweep's, ascending.
+/// Shards that have a folder in that of the sweep, ascending.
 [[nodiscard]] std::vector<Shard> shards_in(const std::filesystem::path& sweep);
 
 [[nodiscard]] bool has_shard_file(const std::filesystem::path& sweep, const Shard& shard);

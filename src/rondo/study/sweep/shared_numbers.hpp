@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Numbers that a process and those it forks later read and write together.
+/// @file  Numbers that a process shares with the processes that it forks later.
 #pragma once
 #include <sys/mman.h>
 
@@ -11,7 +11,7 @@
 
 namespace rondo::study {
 
-/// All 0 at first. @throws std::bad_alloc
+/// All numbers are 0 at first. @throws std::bad_alloc
 template <class Number>
 class SharedNumbers {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The directory of a sweep: what is in it, and whether a sweep may begin or go on there.
+/// @file  The directory of a sweep: its contents, and whether a sweep may start or resume there.
 #pragma once
 #include <cstddef>
 #include <filesystem>
@@ -10,37 +10,37 @@
 
 namespace rondo::study {
 
-/// Of sweep.json.
+/// The format in sweep.json.
 inline constexpr const char* sweep_format = "rondo sweep 1";
-/// In the directory of a sweep that is made in shards: a folder for each.
+/// Folder in the directory of a sweep run in shards; it has a folder for each shard.
 inline constexpr const char* shards_folder = "shards";
 
 /// SWEEP/runs/0012 for member 11 of n.
 [[nodiscard]] std::filesystem::path run_directory(const std::filesystem::path& sweep,
                                                   std::size_t member, std::size_t n);
 
-/// Equal for studies that give the same table.
+/// Hash that is equal for studies with the same table.
 [[nodiscard]] std::string hash_of(const SweepStudy& study, const PlannedSweep& plan);
 
-/// By its sweep.json it is this sweep, of this program. @param otherwise said last of what can be
-/// done about another one @throws InputError, FileError
+/// Checks by its sweep.json that it is this sweep, made by this program. @param otherwise advice at
+/// the end of the message about another sweep @throws InputError, FileError
 void demand_same_sweep(const std::filesystem::path& directory, const std::string& hash,
                        const std::string& otherwise);
 
-/// What a sweep would write is not there; nor a run. @param runs nor runs/ @throws InputError
+/// Checks that no file of a sweep or of a run exists. @param runs nor runs/ @throws InputError
 void refuse_foreign_files(const std::filesystem::path& directory, bool runs);
 
 /// @throws FileError
 void make_directory(const std::filesystem::path& directory);
 
-/// Makes the directory, or finds there what the request allows: nothing, or this sweep to go on
-/// with, or one to be replaced. Nothing else is touched. @throws InputError, FileError
+/// Creates the directory, or accepts what the request allows there: nothing, this sweep to resume,
+/// or a sweep to replace. Nothing else is changed. @throws InputError, FileError
 void prepare_sweep(const SweepRequest& request, const std::string& hash);
 
-/// @throws FileError: no room for the runs that are not there yet
+/// @throws FileError: there is no space for the runs that do not exist yet
 void demand_room(const SweepRequest& request, const PlannedSweep& plan);
 
-/// With --overwrite, what a sweep has left, and PODs of it. @pre the directory is taken
+/// With --overwrite, removes the files of a sweep and its PODs. @pre the directory is locked
 void clear_sweep(const SweepRequest& request);
 
 }  // namespace rondo::study

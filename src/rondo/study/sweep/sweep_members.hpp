@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The members of a study as they will be run, checked before the first of them begins.
+/// @file  The members of a study that will be run; all are checked before the first one starts.
 #pragma once
 #include <cstddef>
 #include <functional>
@@ -15,41 +15,41 @@
 
 namespace rondo::study {
 
-/// What a member would cost, as far as it is known.
+/// Expected cost of a member, as far as it is known.
 struct MemberCost {
-  std::size_t memory_bytes = 0;  ///< at its largest
+  std::size_t memory_bytes = 0;  ///< peak memory
   std::size_t disk_bytes = 0;
   std::size_t nodes = 0, dofs = 0;
   long long steps = 0;   ///< or increments
-  double seconds = 0.0;  ///< expected; 0: not asked for, or not estimated
+  double seconds = 0.0;  ///< expected; 0: not requested, or not estimated
   std::vector<std::string> warnings;
 };
 
-/// Who makes a member.
+/// Who runs a member.
 enum class Part {
   own,    ///< this sweep, or this shard of it
-  lent,   ///< another shard; made here as well, for its modes alone
-  other,  ///< another shard: it is read here and not built
+  lent,   ///< another shard; run here as well, only for its modes
+  other,  ///< another shard: it is read here but not built
 };
 
 struct PlannedMember : MemberCost {
   Member member;
   Part part = Part::own;
-  std::string hash;          ///< of the case as run and its mesh
-  std::string body;          ///< of what members share, see body_key(), and the mesh
-  bool is_linear = true;     ///< no part is rubber
-  bool finds_modes = false;  ///< a crush by LATIN-PGD
-  /// Member of the same body whose modes it begins with, where that one is done; none: it is the
+  std::string hash;          ///< of the case as run and of its mesh
+  std::string body;          ///< of the body that members share, see body_key(), and the mesh
+  bool is_linear = true;     ///< whether no part is rubber
+  bool finds_modes = false;  ///< whether it is a crush by LATIN-PGD
+  /// The member of the same body with whose modes it starts, if that has finished; none: it is the
   /// first of its body, or has no modes.
   std::optional<std::size_t> modes_of;
 };
 
 struct MembersRequest {
   const SweepStudy& study;
-  bool seconds = false;  ///< estimate them
-  /// Takes what is counted, how many of them are done, how many there are; may be empty.
+  bool seconds = false;  ///< whether to estimate them
+  /// Receives the current stage, the number of members done and of all; may be empty.
   std::function<void(const char* what, long long done, long long all)> progress;
-  /// Sets the parts of the members when they are read, before any is built; empty: all are own.
+  /// Sets the parts of the members after reading and before building them; empty: all are own.
   std::function<void(std::vector<PlannedMember>& members)> choose;
 
   /// For TeamWork::watch.
@@ -57,27 +57,27 @@ struct MembersRequest {
 };
 
 struct PlannedSweep {
-  const AnalysisType* type = nullptr;  ///< of all members
-  std::vector<ChosenFigure> chosen;    ///< besides the type's figures
-  bool is_solid = false;               ///< wheels in three dimensions: of the units
+  const AnalysisType* type = nullptr;  ///< that of all members
+  std::vector<ChosenFigure> chosen;    ///< in addition to the type's figures
+  bool is_solid = false;               ///< whether bodies are wheels in three dimensions
   std::vector<PlannedMember> members;  ///< in the order of their numbers
-  /// Members in the order in which they are done: those that share a body one after the other, the
-  /// longest first.
+  /// The order in which members are run: those that share a body follow one another, the longest
+  /// first.
   std::vector<std::size_t> order;
-  bool stopped = false;  ///< before all was checked
-  /// Members have no directories: they take less time than these would, and are made anew.
+  bool stopped = false;  ///< before everything was checked
+  /// Members have no directories: the runs are shorter than creating these, and are run again.
   bool direct = false;
 };
 
-/// Labels of the figures of a member, in their order.
+/// Labels of a member's figures, in their order.
 [[nodiscard]] std::vector<ColumnLabel> figure_labels(const PlannedSweep& plan);
 
-/// Reads every member's case, builds every member once that is made here. @throws InputError with
+/// Reads the cases of all members and builds every member that is run here. @throws InputError with
 /// all faults of all members, each once, with the members that it concerns; FileError
 [[nodiscard]] PlannedSweep plan_sweep(const MembersRequest& request, Team& team);
 
-/// The order in parts, without the members that are made elsewhere, of which each is done before
-/// the next: members begin with modes of those in parts before.
+/// The order in phases, without members run elsewhere; each phase finishes before the next starts,
+/// because members start with modes of members in earlier phases.
 [[nodiscard]] std::vector<std::vector<std::size_t>> phases_of(const PlannedSweep& plan);
 
 /// @throws InputError

@@ -13,19 +13,19 @@ struct Member {
   std::vector<std::string> values;  ///< (parameters) as TOML
 };
 
-/// In the order of their numbers: the last parameter of the grid changes fastest, and the points of
-/// the sample faster than those; parameters that go together are one. The same on every machine.
-/// @throws InputError: too many
+/// Members in the order of their numbers: the last parameter of the grid changes fastest, and the
+/// points of the sample faster still; parameters of one [[vary]] count as one. The order is the
+/// same on every machine. @throws InputError: too many
 [[nodiscard]] std::vector<Member> members_of(const SweepStudy& study);
 
-/// `n` points in [0, 1) of `dimensions`, by dimension: in each, one point in each n-th part.
+/// `n` points in [0, 1) of `dimensions`, by dimension: each n-th part of each has one point.
 [[nodiscard]] std::vector<std::vector<double>> latin_hypercube(int dimensions, int n,
                                                                std::uint64_t seed);
 
-/// "a.b=value" of a member.
+/// The settings "a.b=value" of a member.
 [[nodiscard]] std::vector<std::string> settings_of(const SweepStudy& study, const Member& member);
 
-/// A member's name in messages: "run 3 (ground.friction = 0.2, motion.speed = 10.0)".
+/// The name of a member in messages: "run 3 (ground.friction = 0.2, motion.speed = 10.0)".
 [[nodiscard]] std::string name_of(const SweepStudy& study, const Member& member,
                                   std::size_t number);
 

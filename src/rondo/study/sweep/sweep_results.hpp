@@ -13,26 +13,26 @@ enum class MemberStatus { waiting, done, failed, interrupted };
 
 [[nodiscard]] const char* name_of(MemberStatus status) noexcept;
 
-/// What came of a member.
+/// The result of a member.
 struct MemberRow {
   MemberStatus status = MemberStatus::waiting;
-  int code = 0;                 ///< of a failure: exit code of a run that ends so
-  std::string message;          ///< of a failure
-  bool kept = false;            ///< it was there already
+  int code = 0;                 ///< exit code of a failed run
+  std::string message;          ///< message of a failed run
+  bool kept = false;            ///< it existed already
   long long steps = 0;          ///< done
   double end_time = 0.0;        ///< reached [s]; 0: no motion
-  std::vector<double> figures;  ///< as the columns of the plan's figures; empty: none
+  std::vector<double> figures;  ///< in the order of the plan's figures; empty: none
   int worker = 0;
-  double wall_s = 0.0;  ///< of the run when it was made
+  double wall_s = 0.0;  ///< of the run that made it
 };
 
-/// It has not come to an end, good or bad.
+/// Whether it has neither finished nor failed.
 [[nodiscard]] inline bool is_unfinished(const MemberRow& row) noexcept {
   return row.status == MemberStatus::interrupted || row.status == MemberStatus::waiting;
 }
 
 [[nodiscard]] std::string packed(const MemberRow& row);
-/// @pre made by packed()
+/// @pre `text` was made by packed()
 [[nodiscard]] MemberRow unpacked(const std::string& text);
 
 struct SweepTables {
@@ -41,7 +41,7 @@ struct SweepTables {
   const std::vector<MemberRow>& rows;  ///< (members)
 };
 
-/// results.csv and sweep.h5, which hang on nothing but study and program; timings.csv.
+/// results.csv and sweep.h5, which depend only on study and program; timings.csv.
 /// @throws FileError
 void write_tables(const std::filesystem::path& directory, const SweepTables& tables);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What came of the members of a sweep, or of those of one shard: counted, told, written.
+/// @file  The results of the members of a sweep or of one shard: counted, reported, written.
 #pragma once
 #include <chrono>
 #include <cstddef>
@@ -16,28 +16,28 @@ namespace rondo::study {
 
 class SweepRows {
  public:
-  /// All of them are kept by reference.
+  /// All arguments are kept by reference.
   SweepRows(const SweepRequest& request, const SweepStudy& study, const PlannedSweep& plan)
       : request_(request), study_(study), plan_(plan), rows_(plan.members.size()) {}
 
-  /// sweep.json. @throws FileError
+  /// Writes sweep.json. @throws FileError
   void write(const char* status) const;
   /// @throws FileError
   void write_tables() const { study::write_tables(request_.directory, {study_, plan_, rows_}); }
 
-  /// @param members whose pieces they are
+  /// @param members numbers of the members to which the pieces belong
   void take(const std::vector<std::size_t>& members, const std::vector<Piece>& pieces);
   void take(std::size_t member, MemberRow row) { rows_[member] = std::move(row); }
-  /// After the runs: takes the rows of members that were not reached and were done before; members
-  /// that are done and whose files are gone have failed. @throws InputError, FileError
+  /// Call after the runs: takes the rows of finished members that were not reached. Finished
+  /// members whose files are missing count as failed. @throws InputError, FileError
   void compare_with_files(const MemberRunner& runner);
-  /// Of a sweep that was made by others; else the time since this object began.
+  /// For a sweep that others ran; else the time since this object was created is used.
   void set_wall(double seconds) { wall_s_ = seconds; }
 
   [[nodiscard]] const std::vector<MemberRow>& rows() const noexcept { return rows_; }
-  /// Of these members.
+  /// Whether one of these members is unfinished.
   [[nodiscard]] bool is_unfinished(const std::vector<std::size_t>& members) const;
-  /// Of the members that are its own.
+  /// Report of the members that are its own.
   [[nodiscard]] SweepReport report() const;
 
  private:
@@ -63,20 +63,20 @@ class SweepRows {
 /// The study file with the settings of the request. @throws InputError, FileError
 [[nodiscard]] SweepStudy study_of(const SweepRequest& request);
 
-/// What is gone on with there may still be at work on another machine.
+/// Warns that the sweep to be resumed may still be running on another machine.
 void warn_of_another_host(const SweepRequest& request, const std::filesystem::path& directory);
 
-/// Each text once, with the number of members that it is said of.
+/// Gives each warning once, with the number of members that it concerns.
 void warn_of_members(const SweepRequest& request, const PlannedSweep& plan);
 
-/// The leader's part before the runs; where it fails, all do. All members of the team call it.
+/// The leader's part before the runs; if it fails, all fail. All members of the team call it.
 /// @throws what `part` throws; std::runtime_error: the leader has failed
 void lead(Team& team, const std::function<void()>& part);
 
-/// Part by part, up to one that is not finished. All members of the team call it.
+/// Runs phase by phase, up to one that is not finished. All members of the team call it.
 void run_members(const SweepRequest& request, MemberRunner& runner, Team& team, SweepRows& rows);
 
-/// Before all was checked a stop was asked for.
+/// The report if a stop was requested before all was checked.
 [[nodiscard]] SweepReport interrupted_report(const PlannedSweep& plan);
 
 }  // namespace rondo::study

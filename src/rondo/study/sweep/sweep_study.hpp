@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The study file of a sweep (docs/studies.md): which keys of a case are varied, and how.
+/// @file  The study file of a sweep (docs/studies.md): the keys of a case that vary, and how.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -13,17 +13,17 @@
 
 namespace rondo::study {
 
-/// One parameter: a key of the case file.
+/// One parameter: a key of the case file with its values.
 struct Vary {
   std::string key;                               ///< e.g. "ground.friction"
-  std::vector<std::string> values;               ///< as TOML, of `values` or `linspace`
-  std::optional<std::array<double, 2>> uniform;  ///< from, to: of a sample, instead of values
+  std::vector<std::string> values;               ///< as TOML, from `values` or `linspace`
+  std::optional<std::array<double, 2>> uniform;  ///< from, to: range of a sample, instead of values
   int line = 0;                                  ///< of its table in the study file
-  /// Its k-th value goes with the k-th of the parameter before: both are of one [[vary]].
+  /// It belongs to the same [[vary]] as the previous parameter: their k-th values are combined.
   bool goes_with_previous = false;
 };
 
-/// How parameters given as `uniform` are sampled.
+/// How parameters with `uniform` are sampled.
 struct Sample {
   int count = 0;
   std::uint64_t seed = 0;
@@ -37,19 +37,19 @@ struct SweepStudy {
   std::vector<Vary> parameters;       ///< at least one
   std::optional<Sample> sample;
   Window window;
-  std::vector<std::string> columns;  ///< of history.csv, whose figures the table has besides
+  std::vector<std::string> columns;  ///< of history.csv, whose figures are added to the table
   bool snapshots = false;            ///< members write those of the base case; else none
 };
 
 /// @throws InputError with every fault
 [[nodiscard]] SweepStudy read_study(const std::filesystem::path& file);
-/// The same from a text; `file` is what messages call it, and what `base` is relative to.
+/// The same from a text; messages call it `file`, and `base` is relative to that.
 [[nodiscard]] SweepStudy read_study_text(const std::filesystem::path& file, std::string text);
 
-/// Settings that what is varied would hide, or that mean nothing. @throws InputError
+/// Refuses settings that varied keys would hide or that have no meaning. @throws InputError
 void check_settings(const SweepStudy& study);
 
-/// More members are not listed.
+/// Studies with more members are refused.
 inline constexpr std::size_t most_members = 1'000'000;
 
 }  // namespace rondo::study

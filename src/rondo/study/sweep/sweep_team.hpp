@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Those who do a sweep's pieces of work as they come: processes of this machine, or ranks
-/// of an MPI job (apps/rondo/sweep/mpi_team.hpp).
+/// @file  Teams that do the pieces of work of a sweep: processes of this machine, or ranks of an
+/// MPI job (apps/rondo/sweep/mpi_team.hpp).
 #pragma once
 #include <algorithm>
 #include <atomic>
@@ -13,21 +13,21 @@
 
 namespace rondo::study {
 
-/// What came of a piece of work.
+/// The result of a piece of work.
 struct Piece {
-  enum class State { missing, done, failed };  ///< missing: a stop was asked for before its turn
+  enum class State { missing, done, failed };  ///< missing: a stop was requested before its turn
   State state = State::missing;
-  std::string text;  ///< what the work returned; of a failure, why
+  std::string text;  ///< result of the work; for a failure, the reason
   int code = exit_done;
-  int worker = 0;  ///< who did it
+  int worker = 0;  ///< the worker that did it
 };
 
 struct TeamWork {
-  std::size_t count = 0;  ///< pieces
-  /// Done by one worker after the other for the pieces they take, in the order of their numbers; a
-  /// worker keeps what it has built between its pieces. An exception makes the piece a failure.
+  std::size_t count = 0;  ///< number of pieces
+  /// Workers take pieces in the order of their numbers and call this for each; a worker keeps what
+  /// it has built between its pieces. An exception makes the piece a failure.
   std::function<std::string(std::size_t piece, const std::atomic<bool>& stop)> work;
-  /// Called now and then where leads() with the number of pieces that have ended; may be empty.
+  /// Where leads() is true: called from time to time with the number of ended pieces; may be empty.
   std::function<void(std::size_t ended)> watch;
 };
 
@@ -37,42 +37,42 @@ class Team {
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
   virtual ~Team() = default;
-  /// Writes what concerns the sweep as a whole; true of one only.
+  /// Whether it writes the files of the whole sweep; true for only one member of the team.
   [[nodiscard]] virtual bool leads() const = 0;
   [[nodiscard]] virtual int rank() const { return 0; }
   [[nodiscard]] virtual int workers() const = 0;
-  /// No more than that many at once, if that is the team's to decide. @param workers at least 1
+  /// Limits the number of workers at once, if the team decides about it. @param workers at least 1
   virtual void limit_workers(int workers) = 0;
-  /// All members of the team call it with the same pieces, and get the same back.
+  /// All members of the team call it with the same pieces, and receive the same results.
   [[nodiscard]] virtual std::vector<Piece> each(const TeamWork& work) = 0;
-  /// To be called now and then within a long piece, so that others need not wait; may be empty.
+  /// Must be called from time to time in a long piece, so that others need not wait; may be empty.
   [[nodiscard]] virtual std::function<void()> tick() { return {}; }
-  /// Called by who cannot go on. True: all have failed, by the same cause. False after some
-  /// seconds: others wait for this one.
+  /// Called by a member that cannot continue. Returns true if all have failed for the same reason,
+  /// false after some seconds: then others wait for this one.
   [[nodiscard]] virtual bool have_all_failed() { return true; }
   /// Ends the processes of all.
   virtual void abort(int /*code*/) {}
-  /// A text of the leader's, to all.
+  /// Sends the leader's text to all.
   [[nodiscard]] virtual std::string from_leader(std::string text) = 0;
 };
 
-/// The piece as the worker does it: what it throws becomes a failure.
+/// Does the piece in the worker; an exception becomes a failure.
 [[nodiscard]] Piece do_piece(const TeamWork& work, std::size_t piece, const std::atomic<bool>& stop,
                              int worker);
 
-/// @throws InputError, FileError, std::runtime_error: what made the piece fail
+/// @throws InputError, FileError, std::runtime_error: the reason why the piece failed
 void demand_done(const Piece& piece);
 
-/// Pieces with their numbers, to be sent, and back.
+/// Converts pieces with their numbers to a text that can be sent; unpack() reverses it.
 [[nodiscard]] std::string packed(const std::vector<std::pair<std::size_t, Piece>>& pieces);
-/// @pre made by packed(), or a beginning of that, of which whole pieces are taken
+/// @pre text was made by packed(), or is the beginning of such a text: complete pieces are read
 void unpack(const std::string& text, std::vector<Piece>& pieces);
 
-/// Processes of this machine that this one forks, so that a worker that is killed takes no other
-/// with it: its piece has failed, what it had done and not told is done again.
+/// Processes forked on this machine. If a worker is killed, the others continue: its current piece
+/// has failed, and pieces that it had done but not reported are repeated.
 class LocalTeam : public Team {
  public:
-  /// @param workers at least 1 @param stop set: no new piece is taken, those in hand are told
+  /// @param workers at least 1 @param stop set: no new piece starts, and running ones are told
   LocalTeam(int workers, const std::atomic<bool>* stop) : workers_(workers), stop_(stop) {}
   [[nodiscard]] bool leads() const override { return true; }
   [[nodiscard]] int workers() const override { return workers_; }

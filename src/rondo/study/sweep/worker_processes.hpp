@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Workers at once, each in a process of its own: the HDF5 library is not safe for threads,
-/// the number of BLAS's threads is a setting of the process, and a worker that is killed takes no
-/// other with it.
+/// @file  Parallel workers, each in its own process: the HDF5 library is not thread-safe, the
+/// number of BLAS threads is a setting of the process, and a worker that is killed does not affect
+/// the others.
 #pragma once
 #include <atomic>
 #include <exception>
@@ -15,27 +15,27 @@ namespace rondo::study {
 
 struct WorkerOutcome {
   int code = exit_done;
-  std::string text;  ///< what the work returned, of any length; of a failure, why
+  std::string text;  ///< result of the work, of any length; for a failure, the reason
 };
 
-/// Of work that an exception ended.
+/// The outcome of work that ended with an exception.
 [[nodiscard]] WorkerOutcome failed_by(const std::exception& error);
 
-/// Runs in the child. Files it opens, HDF5's above all, are to be closed when it returns. `stop` is
-/// set by SIGINT, SIGTERM and SIGHUP: the work is to return soon.
+/// Runs in the child. It must close its files, especially those of HDF5, before it returns. `stop`
+/// is set by SIGINT, SIGTERM and SIGHUP: the work must then return soon.
 using WorkerTask = std::function<std::string(int worker, const std::atomic<bool>& stop)>;
 
-/// Forks `workers` processes and returns one outcome each once all have ended.
+/// Forks `workers` processes and returns the outcome of each when all have ended.
 ///
-/// Before the call this process must not have run a parallel loop of OpenMP nor have other threads
-/// at work: their pools and locks do not survive a fork. Children stay in the process group, so
-/// that a Ctrl-C reaches them all: the caller catches it and sets `stop`, upon which they are told.
-/// They die with the thread that called.
+/// Before the call this process must not have run a parallel loop of OpenMP or have other active
+/// threads, because their pools and locks do not survive a fork. Children stay in the process
+/// group, so that a Ctrl-C reaches them all; the caller catches it and sets `stop`, which is passed
+/// on to them. They die with the calling thread.
 ///
 /// @param stop may be null @param watch called here about ten times a second and at the end; may be
 /// empty
-/// @throws FileError: a process cannot be started; what `watch` throws. Those that run are told to
-/// stop and have ended by then.
+/// @throws FileError: a process cannot be started; exceptions of `watch`. Running children are then
+/// told to stop and have ended.
 [[nodiscard]] std::vector<WorkerOutcome> run_workers(int workers, const WorkerTask& task,
                                                      const std::atomic<bool>* stop,
                                                      const std::function<void()>& watch);

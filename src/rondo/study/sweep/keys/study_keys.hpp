@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The keys of a study file: one table, from which come what the reader knows, what its
-/// messages allow, and `rondo schema study`.
+/// @file  The keys of a study file as one table. The reader, the allowed values in its messages,
+/// and `rondo schema study` use it.
 #pragma once
 #include <limits>
 #include <span>
@@ -16,34 +16,34 @@ inline constexpr std::string_view sample_kind = "latin-hypercube";
 inline constexpr Range sample_counts{1.0, static_cast<double>(most_members), false, false};
 inline constexpr Range sample_seeds{0.0, std::numeric_limits<double>::infinity(), false, false};
 inline constexpr Range linspace_counts{2.0, static_cast<double>(most_members), false, false};
-/// What lies between two of them is a number too.
+/// Limits such that the difference of two values is also a finite number.
 inline constexpr Range ends{-1e300, 1e300, false, false};
 
 struct StudyKey {
   std::string_view path;      ///< "base"; "vary[].key": of each [[vary]]
   std::string_view allowed;   ///< for messages
-  std::string_view standard;  ///< "required", or what holds where it is left out
+  std::string_view standard;  ///< "required", or what applies if it is absent
   std::string_view meaning;
   Json (*schema)();  ///< of its value
 };
 
-/// The keys of a table side by side, in the order of docs/studies.md.
+/// The keys in the order of docs/studies.md; those of one table are adjacent.
 std::span<const StudyKey> study_keys() noexcept;
 
-/// Null where there is no such key. @param path  tables of lists by their number: "vary[0].key"
+/// Null if there is no such key. @param path  tables in lists by their number: "vary[0].key"
 const StudyKey* find_study_key(std::string_view path);
 
-/// "sample", "vary": tables and the list of tables.
+/// Whether it is "sample", "vary", ...: a table or a list of tables.
 bool is_study_table(std::string_view path);
 bool is_study_list(std::string_view path);
 
 /// "base, set, ..., [[vary]], [sample], [window]" @param table  "", "vary[]", ...
 std::string study_keys_text(std::string_view table);
 
-/// The study's keys that are the same in all members: what may not be varied. @param key of a case
+/// Whether a key may vary; keys that must be equal in all members may not. @param key of a case
 bool may_be_varied(std::string_view key);
 
-/// A study file as a JSON Schema, as case_schema().
+/// A study file as a JSON Schema, like case_schema().
 Json study_schema();
 
 }  // namespace rondo::study

@@ -16,12 +16,12 @@
 
 namespace rondo::study {
 
-/// @throws InputError: it is no TOML
+/// @throws InputError: it is not TOML
 [[nodiscard]] CaseSource load_study(const std::filesystem::path& file);
 [[nodiscard]] CaseSource load_study_text(const std::filesystem::path& file, std::string text);
 
-/// Paths are those of study_keys(), with the numbers of tables in lists. What is allowed is that of
-/// the key.
+/// Paths are those of study_keys(), with the numbers of tables in lists. Allowed values are those
+/// of the key.
 class StudyReader : public CaseValues {
  public:
   explicit StudyReader(CaseSource source);
@@ -30,16 +30,16 @@ class StudyReader : public CaseValues {
   void fault(std::string_view path, std::string message, std::string allowed) {
     CaseValues::fault(path, std::move(message), std::move(allowed));
   }
-  /// Of a text: it must not be empty.
+  /// Reads a value; a text must not be empty.
   void read(const std::string& path, const CaseMember& field) {
     CaseValues::read(Allowed{}, true, path, field);
   }
 
-  // Null or none where it is not there, and with a fault where it is something else.
+  // The functions return null or nothing if the value is absent or, with a fault, of another type.
   const CaseValue* typed(const std::string& path, ValueType type);
   std::vector<std::string> texts(const std::string& path);
   std::optional<std::int64_t> integer(const std::string& path, const Range& range);
-  /// `n` finite numbers.
+  /// Reads `n` finite numbers.
   const CaseValue* numbers(const std::string& path, std::size_t n);
 };
 

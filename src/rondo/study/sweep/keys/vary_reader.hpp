@@ -8,7 +8,7 @@
 
 namespace rondo::study {
 
-/// In the order of the file; those of `keys` one after the other. What is wrong is a fault of `in`.
+/// The parameters in the order of the file; those of `keys` are adjacent. Adds faults to `in`.
 [[nodiscard]] std::vector<Vary> read_parameters(StudyReader& in);
 
 }  // namespace rondo::study

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What is wrong in members of a study: each fault once, with the members that it concerns.
+/// @file  Faults in the members of a study: each is reported once, with the members it concerns.
 #pragma once
 #include <cstddef>
 #include <map>
@@ -15,7 +15,7 @@ class MemberFaults {
  public:
   MemberFaults(const SweepStudy& study, std::size_t members) : study_(study), faulty_(members) {}
 
-  /// Faults with the same `kind` are one, told with the first text.
+  /// Faults with the same `kind` count as one, which is reported with the first text.
   void add(std::size_t member, const std::string& kind, const std::string& text);
   [[nodiscard]] bool any() const noexcept { return !found_.empty(); }
   [[nodiscard]] bool has(std::size_t member) const { return faulty_[member]; }
