@@ -105,22 +105,6 @@ Json fault_schema() {
   return schema;
 }
 
-Json build_record_schema() {
-  Json schema = study::closed_object();
-  const auto add = [&](const char* name, Json value, const char* meaning) {
-    value["description"] = meaning;
-    schema["properties"][name] = std::move(value);
-    schema["required"].push_back(name);
-  };
-  add("commit", {{"type", "string"}}, "of the sources; \"unknown\" without git");
-  add("modified", {{"type", {"boolean", "null"}}}, "files differed from the commit; null: unknown");
-  add("compiler", {{"type", "string"}}, "name, version, kind of build; sanitizers");
-  add("flags", {{"type", "string"}}, "of every module; each adds its warnings");
-  add("libraries", {{"type", "object"}, {"additionalProperties", {{"type", "string"}}}},
-      "name and version of the libraries that it was built with");
-  return schema;
-}
-
 std::string document(const Json& result, int code, const Kept& told) {
   std::string message;
   for (const std::string& error : told.errors) message += (message.empty() ? "" : "\n") + error;
@@ -205,7 +189,7 @@ Json answer_schema(std::string_view command, Json result) {
   }
   add("command", study::one_of({&command, 1}), "whose document it is");
   add("version", {{"type", "string"}}, "of rondo");
-  add("build_record", build_record_schema(), "what rondo was built from");
+  add("build_record", study::schema_of(study::build_record_members()), "what rondo was built from");
   add("status", study::one_of(names), "how it ended");
   add("exit_code", {{"enum", codes}}, "of the program");
   add("message", {{"type", {"string", "null"}}}, "what went wrong; null: nothing");

@@ -164,11 +164,12 @@ CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell)
 
 CLI::App* add_schema(CLI::App& program, std::string& of) {
   CLI::App* schema = program.add_subcommand(
-      "schema", "Prints a JSON Schema of case or study files, or of what --json prints");
+      "schema",
+      "Prints a JSON Schema of case or study files, of run.json, or of what --json prints");
   schema
       ->add_option("of", of,
                    "Kind of file, or command with --json: "
-                   "case | study | check | run | sweep | pod | reduce | fmu | modes")
+                   "case | study | run.json | check | run | sweep | pod | reduce | fmu | modes")
       ->required();
   schema->footer("Example:\n  rondo schema case > case.json\nFor editors: docs/machine.md.");
   return schema;

@@ -9,6 +9,7 @@
 #include "documents/documents.hpp"
 #include "rondo/case/schema/case_schema.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/study/run_json/run_json.hpp"
 #include "rondo/study/sweep/keys/study_keys.hpp"
 
 namespace rondo::app {
@@ -24,6 +25,13 @@ constexpr Schema schemas[] = {
     {"study", study::study_schema},
     {"check", [] { return answer_schema("check", check_schema()); }},
     {"run", [] { return answer_schema("run", run_schema()); }},
+    {"run.json",
+     [] {
+       Json schema = study::schema_head("run.json of rondo",
+                                        "Units are those of a plane body, per metre of its width");
+       schema.update(study::run_json_schema());
+       return schema;
+     }},
     {"sweep", [] { return answer_schema("sweep", sweep_schema()); }},
     {"pod", [] { return answer_schema("pod", pod_schema()); }},
     {"reduce", [] { return answer_schema("reduce", reduce_schema()); }},

@@ -61,9 +61,10 @@ ALLOWED["study/shards"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/pod"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/reduce"] = ALLOWED["study/pod"] | {"study/pod"}
 ALLOWED["study/options"] = ALLOWED["study/reduce"] | {"study/reduce", "analysis/modes"}
+ALLOWED["study/run_json"] = ALLOWED["analysis/modes"] | {"analysis/modes"}
 ALLOWED["apps"] = {"core", "case", "output", "analysis/base", "analysis/build", "analysis",
                    "analysis/modes", "fmu", "io", "study/pod", "study/sweep", "study/shards",
-                   "study/reduce", "study/options"}
+                   "study/reduce", "study/run_json", "study/options"}
 ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout of its output
 
 # Libraries that only these modules may see.

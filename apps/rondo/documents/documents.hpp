@@ -8,7 +8,7 @@
 
 #include "rondo/analysis/modes/modes.hpp"
 #include "rondo/analysis/registry.hpp"
-#include "rondo/case/schema/json_schema.hpp"
+#include "rondo/case/schema/members.hpp"
 #include "rondo/study/pod/pod.hpp"
 #include "rondo/study/reduce/reduce.hpp"
 #include "rondo/study/sweep/sweep.hpp"
@@ -16,6 +16,7 @@
 namespace rondo::app {
 
 using study::Json;
+using study::Member;
 
 struct FmuReport;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "commands.hpp"
 #include "documents/documents.hpp"
-#include "documents/members.hpp"
 
 namespace rondo::app {
 namespace {
@@ -24,11 +23,11 @@ constexpr Member<FmuReport> fmu_members[] = {
 }  // namespace
 
 Json fmu_document(const FmuReport& report) {
-  return object_of<FmuReport>(fmu_members, report);
+  return object_of(fmu_members, report);
 }
 
 Json fmu_schema() {
-  return schema_of<FmuReport>(fmu_members);
+  return schema_of(texts_of(fmu_members));
 }
 
 }  // namespace rondo::app

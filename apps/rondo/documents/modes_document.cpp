@@ -2,7 +2,6 @@
 #include <numbers>
 
 #include "documents/documents.hpp"
-#include "documents/members.hpp"
 
 namespace rondo::app {
 namespace {
@@ -18,9 +17,8 @@ constexpr Member<ModeLine> mode_members[] = {
      [](const ModeLine& m) -> Json { return m.omega; }},
     {"frequency", "number", "Hz", "likewise",
      [](const ModeLine& m) -> Json { return m.omega / (2.0 * std::numbers::pi); }},
-    {"diameters", "integer", "", "nodal diameters; null: unknown",
-     [](const ModeLine& m) -> Json { return m.diameters < 0 ? Json() : Json(m.diameters); },
-     [] { return schema_of_maybe("integer"); }},
+    {"diameters", "integer or null", "", "nodal diameters; null: unknown",
+     [](const ModeLine& m) -> Json { return m.diameters < 0 ? Json() : Json(m.diameters); }},
     {"wave", "string", "", "\"standing\", \"forward\", \"backward\"...; \"\": unknown",
      [](const ModeLine& m) -> Json { return study::name_of(m.wave); }},
     {"residual", "number", "", "of the mode", [](const ModeLine& m) -> Json { return m.residual; }},
@@ -66,15 +64,15 @@ constexpr Member<ModesReport> modes_members[] = {
      [](const ModesReport& r) -> Json { return r.dofs; }},
     {"modes", "array", "", "a line of modes.csv each",
      [](const ModesReport& r) -> Json { return objects_of(mode_members, r.modes); },
-     [] { return schema_of_list(mode_members); }},
+     [] { return texts_of(mode_members); }},
     {"spins", "array", "", "what was found at each spin",
      [](const ModesReport& r) -> Json { return objects_of(spin_members, r.spins); },
-     [] { return schema_of_list(spin_members); }},
+     [] { return texts_of(spin_members); }},
     {"sweep", "array", "", "likewise of --spins",
      [](const ModesReport& r) -> Json { return objects_of(spin_members, r.sweep); },
-     [] { return schema_of_list(spin_members); }},
+     [] { return texts_of(spin_members); }},
     {"critical_speeds", "array", "", "at which a wave stands still in space", critical_of,
-     [] { return schema_of_list(critical_members); }},
+     [] { return texts_of(critical_members); }},
     {"residual_max", "number", "", "of all modes",
      [](const ModesReport& r) -> Json { return r.residual_max; }},
     {"wall_s", "number", "s", "all of it", [](const ModesReport& r) -> Json { return r.wall_s; }},
@@ -83,11 +81,11 @@ constexpr Member<ModesReport> modes_members[] = {
 }  // namespace
 
 Json modes_document(const ModesReport& report) {
-  return object_of<ModesReport>(modes_members, report);
+  return object_of(modes_members, report);
 }
 
 Json modes_schema() {
-  return schema_of<ModesReport>(modes_members);
+  return schema_of(texts_of(modes_members));
 }
 
 }  // namespace rondo::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "documents/documents.hpp"
-#include "documents/members.hpp"
 
 namespace rondo::app {
 namespace {
@@ -9,15 +8,11 @@ using study::PodCount;
 using study::PodReport;
 using study::PodRun;
 
-Json maybe_integer() {
-  return schema_of_maybe("integer");
-}
-
 constexpr Member<PodCount> count_members[] = {
     {"discarded", "number", "", "share of the energy",
      [](const PodCount& n) -> Json { return n.discarded; }},
-    {"modes", "integer", "", "that leave at most that much; null: more than were found",
-     [](const PodCount& n) -> Json { return n.modes < 0 ? Json() : Json(n.modes); }, maybe_integer},
+    {"modes", "integer or null", "", "that leave at most that much; null: more than were found",
+     [](const PodCount& n) -> Json { return n.modes < 0 ? Json() : Json(n.modes); }},
 };
 
 Json errors_of(const PodRun& run) {
@@ -39,9 +34,8 @@ constexpr Member<PodRun> run_members[] = {
      [](const PodRun& r) -> Json { return r.energy_share; }},
     {"error", "number", "", "with all modes kept, over the norm of the run",
      [](const PodRun& r) -> Json { return r.error; }},
-    {"error_with_modes_for", "array", "",
-     "with those of each of modes_for; null: more than are kept", errors_of,
-     [] { return study::array_of(schema_of_maybe("number")); }},
+    {"error_with_modes_for", "array of number", "",
+     "with those of each of modes_for; null: more than are kept", errors_of},
 };
 
 struct Decomposed {
@@ -78,7 +72,7 @@ constexpr Member<Decomposed> pod_members[] = {
      [](const Decomposed& k) -> Json { return k.r.modes; }},
     {"modes_for", "array", "", "least modes for shares of the energy left out",
      [](const Decomposed& k) -> Json { return objects_of(count_members, k.r.counts); },
-     [] { return schema_of_list(count_members); }},
+     [] { return texts_of(count_members); }},
     {"worst_error", "number", "", "largest error of a snapshot over its own norm",
      [](const Decomposed& k) -> Json { return k.r.worst_error; }},
     {"worst_time", "number", "time_unit", "of that snapshot",
@@ -97,7 +91,7 @@ constexpr Member<Decomposed> pod_members[] = {
      [](const Decomposed& k) -> Json { return k.r.orthonormality; }},
     {"runs", "array", "", "how well the basis serves each",
      [](const Decomposed& k) -> Json { return objects_of(run_members, k.r.runs); },
-     [] { return schema_of_list(run_members); }},
+     [] { return texts_of(run_members); }},
     {"peak_memory_bytes", "integer", "B", "of the process",
      [](const Decomposed& k) -> Json { return k.r.peak_memory; }},
     {"wall_s", "number", "s", "all of it", [](const Decomposed& k) -> Json { return k.r.wall_s; }},
@@ -106,11 +100,11 @@ constexpr Member<Decomposed> pod_members[] = {
 }  // namespace
 
 Json pod_document(const study::PodRequest& request, const PodReport& report) {
-  return object_of<Decomposed>(pod_members, {request, report});
+  return object_of(pod_members, {request, report});
 }
 
 Json pod_schema() {
-  return schema_of<Decomposed>(pod_members);
+  return schema_of(texts_of(pod_members));
 }
 
 }  // namespace rondo::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "documents/documents.hpp"
-#include "documents/members.hpp"
 
 namespace rondo::app {
 namespace {
@@ -54,12 +53,8 @@ constexpr Member<ReducePart> part_members[] = {
      [](const ReducePart& p) -> Json { return p.discarded; }},
 };
 
-Json part(const ReducePart& p) {
-  return object_of<ReducePart>(part_members, p);
-}
-
-Json part_schema() {
-  return schema_of<ReducePart>(part_members);
+std::vector<study::MemberText> part_texts() {
+  return texts_of(part_members);
 }
 
 constexpr Member<Reduced> reduce_members[] = {
@@ -71,9 +66,10 @@ constexpr Member<Reduced> reduce_members[] = {
     {"modes", "integer", "", "of the reduced one",
      [](const Reduced& k) -> Json { return k.r.modes; }},
     {"displacement", "object", "", "modes of displacements",
-     [](const Reduced& k) -> Json { return part(k.r.displacement); }, part_schema},
+     [](const Reduced& k) -> Json { return object_of(part_members, k.r.displacement); },
+     part_texts},
     {"velocity", "object", "", "modes of velocities",
-     [](const Reduced& k) -> Json { return part(k.r.velocity); }, part_schema},
+     [](const Reduced& k) -> Json { return object_of(part_members, k.r.velocity); }, part_texts},
     {"displacement_left", "number", "", "share of the energy that all modes leave out",
      [](const Reduced& k) -> Json { return k.r.displacement_left; }},
     {"velocity_left", "number", "", "likewise",
@@ -101,18 +97,18 @@ constexpr Member<Reduced> reduce_members[] = {
     {"estimate_text", "string", "", "in words, or why there is none",
      [](const Reduced& k) -> Json { return study::in_words(k.r.estimate); }},
     {"left_out", "array", "", "what the estimate is from", left_out,
-     [] { return schema_of_list(left_out_members); }},
+     [] { return texts_of(left_out_members); }},
     {"wall_s", "number", "s", "all of it", [](const Reduced& k) -> Json { return k.r.wall_s; }},
 };
 
 }  // namespace
 
 Json reduce_document(const study::ReduceRequest& request, const study::ReduceReport& report) {
-  return object_of<Reduced>(reduce_members, {request, report});
+  return object_of(reduce_members, {request, report});
 }
 
 Json reduce_schema() {
-  return schema_of<Reduced>(reduce_members);
+  return schema_of(texts_of(reduce_members));
 }
 
 }  // namespace rondo::app

@@ -2,7 +2,7 @@
 #include <fstream>
 
 #include "documents/documents.hpp"
-#include "documents/members.hpp"
+#include "rondo/study/run_json/run_json.hpp"
 
 namespace rondo::app {
 namespace {
@@ -17,24 +17,6 @@ Json read_json(const std::filesystem::path& file) {
   std::ifstream in(file);
   Json json = Json::parse(in, nullptr, false);
   return json.is_discarded() ? Json() : json;
-}
-
-/// Further keys depend on the analysis: docs/results.md has them all.
-Json run_json_schema() {
-  const auto of_type = [](const char* type) { return Json{{"type", type}}; };
-  Json schema{{"type", {"object", "null"}}};
-  for (const char* name : {"status", "title", "version", "build", "build_id", "host", "analysis"}) {
-    schema["properties"][name] = of_type("string");
-    schema["required"].push_back(name);
-  }
-  Json column = study::closed_object();
-  for (const char* name : {"name", "unit"}) {
-    column["properties"][name] = of_type("string");
-    column["required"].push_back(name);
-  }
-  schema["properties"]["columns"] = study::array_of(std::move(column));
-  schema["properties"]["warnings"] = schema_of_texts();
-  return schema;
 }
 
 constexpr Member<Ran> ran_members[] = {
@@ -72,20 +54,24 @@ constexpr Member<Ran> ran_members[] = {
      [](const Ran& k) -> Json { return k.r.strain_max; }},
     {"jacobian_min", "number", "", "smallest J at a corner of an element",
      [](const Ran& k) -> Json { return k.r.jacobian_min; }},
-    {"notes", "array", "", "of this kind of analysis, in words",
-     [](const Ran& k) -> Json { return k.r.notes; }, schema_of_texts},
-    {"run", "object", "", "run.json as it is in the directory (docs/results.md)",
-     [](const Ran& k) -> Json { return read_json(k.directory / "run.json"); }, run_json_schema},
+    {"notes", "array of string", "", "of this kind of analysis, in words",
+     [](const Ran& k) -> Json { return k.r.notes; }},
+    {"run", "object or null", "", "run.json as it is in the directory (docs/results.md)",
+     [](const Ran& k) -> Json { return read_json(k.directory / "run.json"); }},
 };
 
 }  // namespace
 
 Json run_document(const study::RunReport& report, const std::filesystem::path& directory) {
-  return object_of<Ran>(ran_members, {report, directory});
+  return object_of(ran_members, {report, directory});
 }
 
 Json run_schema() {
-  return schema_of<Ran>(ran_members);
+  Json schema = schema_of(texts_of(ran_members));
+  Json run = study::run_json_schema();
+  run["type"] = {"object", "null"};
+  schema["properties"]["run"].update(run);
+  return schema;
 }
 
 }  // namespace rondo::app

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "documents/documents.hpp"
-#include "documents/members.hpp"
 
 namespace rondo::app {
 namespace {
@@ -22,19 +21,17 @@ constexpr Member<Swept> sweep_members[] = {
      [](const Swept& k) -> Json { return k.r.interrupted; }},
     {"kept", "integer", "", "that were there already",
      [](const Swept& k) -> Json { return k.r.kept; }},
-    {"failures", "array", "", "some of them, in words; all are in sweep.json",
-     [](const Swept& k) -> Json { return k.r.failures; }, schema_of_texts},
+    {"failures", "array of string", "", "some of them, in words; all are in sweep.json",
+     [](const Swept& k) -> Json { return k.r.failures; }},
     {"strained", "integer", "", "runs whose largest strain is above what the law is for",
      [](const Swept& k) -> Json { return k.r.strained; }},
     {"strain_max", "number", "", "the largest of all",
      [](const Swept& k) -> Json { return k.r.strain_max; }},
     {"strain_run", "integer", "", "the run that has it, from 1; 0: none",
      [](const Swept& k) -> Json { return k.r.strain_run; }},
-    {"unfinished", "array", "", "numbers of the shards that --collect found so; else empty",
-     [](const Swept& k) -> Json { return k.unfinished; },
-     [] {
-       return study::array_of(Json{{"type", "integer"}});
-     }},
+    {"unfinished", "array of integer", "",
+     "numbers of the shards that --collect found so; else empty",
+     [](const Swept& k) -> Json { return k.unfinished; }},
     {"wall_s", "number", "s", "all of it", [](const Swept& k) -> Json { return k.r.wall_s; }},
 };
 
@@ -46,9 +43,8 @@ struct Planned {
 
 constexpr Member<Planned> planned_members[] = {
     {"run", "integer", "", "from 1", [](const Planned& p) -> Json { return p.number; }},
-    {"settings", "array", "", "KEY=VALUE over the base case",
-     [](const Planned& p) -> Json { return study::settings_of(p.study, p.member.member); },
-     schema_of_texts},
+    {"settings", "array of string", "", "KEY=VALUE over the base case",
+     [](const Planned& p) -> Json { return study::settings_of(p.study, p.member.member); }},
     {"lent", "boolean", "", "of another shard, made here for its fields",
      [](const Planned& p) -> Json { return p.member.part == study::Part::lent; }},
     {"nodes", "integer", "", "of its mesh",
@@ -78,7 +74,7 @@ Json planned_runs(const Plan& plan) {
   for (const study::PlannedMember& member : plan.dry.plan.members) {
     ++number;
     if (member.part != study::Part::other)
-      array.push_back(object_of<Planned>(planned_members, {number, plan.dry.study, member}));
+      array.push_back(object_of(planned_members, {number, plan.dry.study, member}));
   }
   return array;
 }
@@ -86,22 +82,22 @@ Json planned_runs(const Plan& plan) {
 constexpr Member<Plan> plan_members[] = {
     {"workers", "integer", "", "runs at once", [](const Plan& p) -> Json { return p.workers; }},
     {"planned", "array", "", "the runs, of which none was run", planned_runs,
-     [] { return schema_of_list(planned_members); }},
+     [] { return texts_of(planned_members); }},
 };
 
 }  // namespace
 
 Json sweep_document(const study::SweepReport& report, const std::filesystem::path& directory,
                     const std::vector<std::size_t>& unfinished) {
-  return object_of<Swept>(sweep_members, {report, directory, unfinished});
+  return object_of(sweep_members, {report, directory, unfinished});
 }
 
 Json plan_document(const study::DrySweep& dry, int workers) {
-  return object_of<Plan>(plan_members, {dry, workers});
+  return object_of(plan_members, {dry, workers});
 }
 
 Json sweep_schema() {
-  Json swept = schema_of<Swept>(sweep_members), planned = schema_of<Plan>(plan_members);
+  Json swept = schema_of(texts_of(sweep_members)), planned = schema_of(texts_of(plan_members));
   swept["title"] = "what was run";
   planned["title"] = "with --dry-run";
   return Json{{"oneOf", {swept, planned}}};

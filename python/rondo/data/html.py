@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from .members import MEMBERS
+
 MOST = 20  # rows that are shown: the first ten and the last ten of more
 
 
@@ -44,9 +46,9 @@ def run_html(run: Any) -> str:
             ("cells", run.mesh.n_cells), ("snapshots", run.n_snapshots)]
     if run.n_snapshots:
         rows.append((f"times ({run.time_unit})", f"{run.times[0]:g} to {run.times[-1]:g}"))
-    for key in ("wall_time_s", "energy_residual_relative", "contact_residual_max", "message"):
+    for key in ("total_wall_s", "energy_residual_relative", "contact_residual_max", "message"):
         if run.info.get(key) is not None:
-            rows.append((key, run.info[key]))
+            rows.append((f"{key} ({MEMBERS[key][0]})" if MEMBERS[key][0] else key, run.info[key]))
     rows.append(("directory", run.directory))
     return table(run.title, ("", ""), rows)
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..data.errors import STATUS
+from ..data.members import MEMBERS
 from ..data.run import Run
 from ..plots.curves import TERMS
 from ..plots.labels import column_label, readable
@@ -19,10 +20,7 @@ SCHEME_SHARE = 0.05  # above it a steady run warns
 ADDS_UP = 1e-6  # over the largest term, to which the terms of the ledger are what it says
 Tile = tuple[str, str, str, str]
 ENERGIES = ("kinetic", "strain", "kinetic_rim", "support_energy")
-POWERS = {"drive": "given by speed and torque", "mass": "taken by mass damping",
-          "stiffness": "taken by stiffness damping", "friction": "taken by friction",
-          "weight": "given by the weight along the deformation",
-          "scheme": "by which the slip of the law differs from that of the motion"}
+POWERS = ("drive", "mass", "stiffness", "friction", "weight", "scheme")
 
 
 def status_tile(status: str, message: object = None) -> Tile:
@@ -37,14 +35,11 @@ def health_tiles(run: Run) -> str:
     info = run.info
     bound = info.get("energy_residual_bound", BOUND_FREE if run.mesh.free.any() else BOUND)
     found = [status_tile(run.status, info.get("message"))]
-    found += _judged(info, "energy_residual_relative", "energy balance closes to", bound,
-                     "largest imbalance of the ledger over the energy exchanged; a run stops above "
-                     f"{number(bound)}")
-    found += _judged(info, "contact_residual_max", "law of contact met to", BOUND,
-                     f"checked apart from the solver; a run stops above {number(BOUND)}")
+    found += _judged(info, "energy_residual_relative", "energy balance closes to", bound)
+    found += _judged(info, "contact_residual_max", "law of contact met to", BOUND)
     if info.get("penetration_max_m") is not None:
         found.append(("largest penetration", f"{number(1e3 * info['penetration_max_m'])} mm", "",
-                      "into the ground, at any node"))
+                      MEMBERS["penetration_max_m"][2]))
     share = info.get("steady", {}).get("scheme_share")
     if share is not None:
         found.append(("power of the discretisation", f"{100 * share:.3g} %", "good" if share <= SCHEME_SHARE else "warn",
@@ -58,11 +53,12 @@ def health_tiles(run: Run) -> str:
     return tiles(found) + _warnings(info)
 
 
-def _judged(info: dict[str, Any], key: str, words: str, bound: float, meaning: str) -> list[Tile]:
+def _judged(info: dict[str, Any], key: str, words: str, bound: float) -> list[Tile]:
     value = info.get(key)
     if value is None:
         return [(words, "not known", "warn", "run.json has no such figure yet: the run has not ended")]
-    return [(words, number(value), "good" if value <= bound else "bad", meaning)]
+    return [(words, number(value), "good" if value <= bound else "bad",
+             f"{MEMBERS[key][2]}; a run stops above {number(bound)}")]
 
 
 def _steps(info: dict[str, Any]) -> list[Tile]:
@@ -91,10 +87,10 @@ def _contact(run: Run) -> list[Tile]:
     if "contact_iterations" in run.history and len(run.history["contact_iterations"]):
         found.append(("contact iterations", number(int(run.history["contact_iterations"].max())), "",
                       "most in a step"))
-    for key, words in (("newton_steps", "Newton steps"), ("sweeps_max", "sweeps of the contact solver")):
-        value = run.info.get("steady", {}).get(key) if key == "newton_steps" else run.info.get(key)
+    for path, value in (("steady.newton_steps", run.info.get("steady", {}).get("newton_steps")),
+                        ("sweeps_max", run.info.get("sweeps_max"))):
         if value:
-            found.append((words, number(value), "", "most it took"))
+            found.append((MEMBERS[path][2], number(value), "", ""))
     return found
 
 
@@ -164,9 +160,9 @@ def _powers(run: Run) -> str:
     if "steady" not in run.info:
         return note("run.json has no powers: the run has not come to its end.")
     power = run.steady["power"]
-    largest = max(abs(power[key]) for key in POWERS if key in power)
-    factor, unit = readable(largest, f"W{run.per_width}")
-    rows = [(words, number(factor * power[key]), key) for key, words in POWERS.items() if key in power]
-    rows.append(("what is left open, over the largest", number(power["residual"]), "residual"))
+    words = {key: MEMBERS[f"steady.power.{key}"] for key in POWERS}
+    factor, unit = readable(max(abs(power[key]) for key in POWERS), f"W{run.per_width}")
+    rows = [(words[key][2], number(factor * power[key]), key) for key in POWERS]
+    rows.append(("What is left open, over the largest", number(power["residual"]), "residual"))
     return table(("power", unit, "key in run.json"), rows, "The balance of powers in steady rolling",
                  ("", "number", "code"))

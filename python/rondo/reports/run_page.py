@@ -8,6 +8,7 @@ from functools import partial
 from matplotlib.figure import Figure
 
 from ..data.errors import Error
+from ..data.members import MEMBERS
 from ..data.run import Run
 from ..figures import run_figures
 from ..plots import field, patch
@@ -65,14 +66,11 @@ def _summary(run: Run) -> str:
 def _steady_figures(run: Run) -> str:
     if not run.is_steady or "steady" not in run.info:
         return ""
-    units = {"force_x": "N", "force_y": "N", "torque": "N·m", "height": "m", "speed": "m/s", "slip_ratio": "–",
-             "rolling_resistance": "N", "stick_length": "m", "slip_length": "m", "pressure_max": "Pa",
-             "shear_max": "Pa", "force_lateral": "N", "moment_aligning": "N·m"}
-    wide = {"N", "N·m"} if not run.is_solid else set()
-    rows = [(key.replace("_", " "), number(run.steady[key], 6), unit + ("/m" if unit in wide else ""))
-            for key, unit in units.items() if isinstance(run.steady.get(key), (int, float))]
-    return table(("quantity", "value", "unit"), rows, "Means over the pass of a sector",
-                 ("", "number", ""))
+    words = {key: MEMBERS[f"steady.{key}"] for key in run.steady if f"steady.{key}" in MEMBERS}
+    rows = [(meaning, number(run.steady[key], 6), (solid if run.is_solid else plane) or "–", key)
+            for key, (plane, solid, meaning) in words.items() if isinstance(run.steady[key], (int, float))]
+    return table(("quantity", "value", "unit", "key in run.json"), rows, MEMBERS["steady"][2],
+                 ("", "number", "", "code"))
 
 
 def body_html(document: Document, run: Run, name: str = "body", budget: int | None = None) -> str:

@@ -12,8 +12,8 @@
 #include "rondo/analysis/base/disk.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
-#include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/step_limit.hpp"
+#include "rondo/analysis/dynamic_members.hpp"
 #include "rondo/analysis/elements/combinations.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
 #include "rondo/analysis/rubber_watch.hpp"
@@ -128,31 +128,7 @@ std::vector<std::string> DynamicAnalysis::warnings() const {
 }
 
 void DynamicAnalysis::describe(Json& j) const {
-  j["nodes"] = setup_.model.n_nodes();
-  j["dofs"] = count_dofs(setup_.model);
-  if (const MeshCase* mesh = mesh_file_of(case_)) j["mesh_file"] = as_utf8(mesh->file.string());
-  if (setup_.model.solid) describe_solid(setup_, j);
-  j["bodies"] = count_bodies(setup_.model);
-  j["free_bodies"] = setup_.model.free_bodies.size();
-  j["operator"] = operator_name(setup_.model.stiffness_operator);
-  j["threads"] = setup_.model.threads;
-  j["critical_step"] = setup_.critical.step;
-  j["contact_mass"] = contact_mass_name(case_);
-  if (setup_.model.implicit || has_massless_contact(setup_.model))
-    j["critical_step_plain"] = setup_.critical_plain;
-  if (setup_.model.implicit) j["implicit_dofs"] = 2 * setup_.model.implicit->nodes.size();
-  j["largest_frequency"] = setup_.critical.omega;
-  j["step"] = setup_.model.dt;
-  j["steps"] = setup_.n_steps;
-  if (setup_.model.subdomains) {
-    const dynamics::Subdomains& parts = *setup_.model.subdomains;
-    j["critical_step_plain"] = setup_.critical_plain;
-    j["hati"] = {{"ratio", parts.ratio},
-                 {"fine_step", explicit_step(setup_.model)},
-                 {"fine_dofs", 2 * parts.fine.free.size()},
-                 {"interface_dofs", 2 * parts.interface.size()}};
-  }
-  if (setup_.model.rim) j["rim"] = rim_facts(*setup_.model.rim);
+  describe_dynamic(case_, setup_, j);
 }
 
 /// A run that became longer with all of its snapshots.
@@ -343,27 +319,7 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   for (const std::string& warning : warnings_) j["warnings"].push_back(warning);
   strain_->summarise({}, j, r);
   if (fem::has_rubber(setup_.materials)) summarise_rubber(material_, balance_.exchanged, j, r);
-  j["steps_done"] = steps_;
-  j["end_time"] = time;
-  j["ns_per_dof_step"] = r.ns_per_dof_step;
-  j["energy_residual_relative"] = balance_.relative;
-  j["energy_residual_bound"] = r.energy_residual_bound;
-  j["energy_exchanged"] = balance_.exchanged;
-  j["contact_residual_max"] = contact_.residual;
-  j["penetration_max_m"] = contact_.penetration;
-  j["contact"] = {{"steps_in_contact", contact_.contact_steps},
-                  {"nodes_max", contact_.nodes_max},
-                  {"free_velocity_max", contact_.free_velocity},
-                  {"pairs_solved", contact_.pairs},
-                  {"pairs_not_converged", contact_.pairs_not_converged},
-                  {"clusters_solved", contact_.clusters},
-                  {"clusters_not_converged", contact_.clusters_not_converged},
-                  {"cluster_largest", contact_.cluster_largest},
-                  {"cluster_iterations_max", contact_.cluster_iterations},
-                  {"extensions", contact_.extensions},
-                  {"extensions_max", contact_.extensions_max},
-                  {"between_bodies_max", contact_.between_bodies},
-                  {"problems_kept", problems_kept_}};
+  summarise_dynamic({r, contact_, balance_.exchanged, problems_kept_}, j);
 }
 
 std::unique_ptr<Analysis> make_dynamic(const Case& c, const RunOptions& options) {

@@ -9,6 +9,20 @@
 #include "rondo/mesh/locate.hpp"
 
 namespace rondo::study {
+namespace {
+
+constexpr Member<double> rubber_rows[] = {
+    {"integration_relative", "number", "",
+     "Only with rubber: magnitude of `integration` of `history.csv` at the last step; a warning "
+     "above 0.01",
+     [](const double& relative) -> Json { return relative; }},
+};
+
+}  // namespace
+
+std::vector<MemberText> rubber_members() {
+  return texts_of(rubber_rows);
+}
 
 std::string inverted_rubber(const mesh::Mesh& mesh, std::span<const Vec2> u, double least) {
   const std::size_t cell = fem::deformation(mesh, u).jacobian_cell;
@@ -23,7 +37,7 @@ std::string inverted_rubber(const mesh::Mesh& mesh, std::span<const Vec2> u, dou
 void summarise_rubber(const dynamics::MaterialReport& last, double exchanged, Json& j,
                       RunReport& r) {
   const double relative = exchanged > 0.0 ? std::abs(last.integration()) / exchanged : 0.0;
-  j["integration_relative"] = relative;
+  add_members(rubber_rows, relative, j);
   r.notes.push_back(
       fmt::format("integration: work of the forces of rubber less energy stored and lost, {:.1e} "
                   "of the energy exchanged",

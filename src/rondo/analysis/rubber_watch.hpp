@@ -24,4 +24,7 @@ inline constexpr double integration_bound = 1e-2;
 void summarise_rubber(const dynamics::MaterialReport& last, double exchanged, Json& json,
                       RunReport& report);
 
+/// What it adds to run.json.
+std::vector<MemberText> rubber_members();
+
 }  // namespace rondo::study

@@ -27,20 +27,85 @@ bool is_complete(const Checkpoint& k, const std::filesystem::path& directory) {
   }
 }
 
-void add_outcome(const Loop& loop, Json& j) {
-  add_status(j, loop.status, loop.message);
-  j["loop_wall_s"] = loop.wall_s;
-  j["loop_cpu_s"] = loop.cpu_s;
-  j["peak_memory_bytes"] = peak_memory_bytes();
-  j["snapshots"] = loop.snapshots;
-  j["last_time"] = loop.last_time;
-  j["output"] = {{"wait_wall_s", loop.output.wait_wall_s},
-                 {"drain_wall_s", loop.output.drain_wall_s},
-                 {"write_wall_s", loop.output.write_wall_s},
-                 {"queue_full", loop.output.queue_full}};
-}
+constexpr Member<bool> resumable_members[] = {
+    {"resumable", "boolean", "", "The run writes checkpoints",
+     [](const bool& resumable) -> Json { return resumable; }},
+};
+
+constexpr Member<ColumnLabel> column_members[] = {
+    {"name", "string", "", "Name of the column",
+     [](const ColumnLabel& column) -> Json { return column.name; }},
+    {"unit", "string", "", "Its unit; \"1\": none",
+     [](const ColumnLabel& column) -> Json { return column.unit; }},
+};
+
+struct Begun {
+  const std::vector<ColumnLabel>& columns;
+  Json warnings, resumed_at;  ///< absent(): the run was not resumed
+};
+constexpr Member<Begun> begun_run_members[] = {
+    {"columns", "array", "", "Columns of `history.csv`, in order",
+     [](const Begun& b) { return objects_of(column_members, b.columns); },
+     [] { return texts_of(column_members); }},
+    {"warnings", "array of string", "",
+     "All warnings, those during the steps with the time. A resumed run includes those of the "
+     "calls before; if such a call was killed, only those of its start",
+     [](const Begun& b) { return b.warnings; }},
+    {"resumed_at_steps", "array of integer", "", "Only for a resumed run: steps of the checkpoints",
+     [](const Begun& b) { return b.resumed_at; }},
+};
+
+constexpr Member<KeptFiles> file_members[] = {
+    {"files", "object", "",
+     "For `--resume`, contents of the files at the end: for each table `bytes` and the hash "
+     "`xxh3-128`; for `results.h5` the number of `snapshots`, and the hash of each dataset that "
+     "has a row per snapshot",
+     [](const KeptFiles& files) { return as_json(files); }},
+};
+
+constexpr Member<OutputCost> output_members[] = {
+    {"wait_wall_s", "number", "s",
+     "Wall time of the loop for copying data and waiting for a free buffer",
+     [](const OutputCost& o) -> Json { return o.wait_wall_s; }},
+    {"drain_wall_s", "number", "s", "Wall time after the loop, until everything was written",
+     [](const OutputCost& o) -> Json { return o.drain_wall_s; }},
+    {"write_wall_s", "number", "s",
+     "Wall time of the writer thread, which recovers stresses, formats and writes",
+     [](const OutputCost& o) -> Json { return o.write_wall_s; }},
+    {"queue_full", "integer", "", "How often the loop found no free buffer",
+     [](const OutputCost& o) -> Json { return o.queue_full; }},
+};
+
+constexpr Member<Loop> loop_members[] = {
+    {"loop_wall_s", "number", "s",
+     "Wall time of the steps or increments, including waits for output; in a resumed run with the "
+     "time up to the checkpoint",
+     [](const Loop& loop) -> Json { return loop.wall_s; }},
+    {"loop_cpu_s", "number", "s",
+     "Processor time of all threads during the loop, the writer thread included",
+     [](const Loop& loop) -> Json { return loop.cpu_s; }},
+    {"peak_memory_bytes", "integer", "B", "Largest memory of the process",
+     [](const Loop&) -> Json { return peak_memory_bytes(); }},
+    {"snapshots", "integer", "", "Snapshots written",
+     [](const Loop& loop) -> Json { return loop.snapshots; }},
+    {"last_time", "number", "s", "`time_s` of the last row of `history.csv`",
+     [](const Loop& loop) -> Json { return loop.last_time; }},
+    {"output", "object", "", "Cost of output",
+     [](const Loop& loop) { return object_of(output_members, loop.output); },
+     [] { return texts_of(output_members); }},
+};
+
+constexpr Member<double> total_members[] = {
+    {"total_wall_s", "number", "s", "Wall time from reading the case to the last result written",
+     [](const double& seconds) -> Json { return seconds; }},
+};
 
 }  // namespace
+
+std::vector<MemberText> session_members() {
+  return joined({texts_of(resumable_members), texts_of(begun_run_members), texts_of(file_members),
+                 texts_of(loop_members), texts_of(total_members)});
+}
 
 RunSession::RunSession(Analysis& analysis, const Case& c, const RunOptions& options,
                        Recorder* memory, Clock::time_point begin)
@@ -172,15 +237,16 @@ RunReport RunSession::finish() {
     loop = looper_->finish();
     if (!files_) return;
     files_->close();
-    json_["files"] = as_json(files_->files());
+    add_members(file_members, files_->files(), json_);
     loop.snapshots = files_->written();
     loop.last_time = files_->last_time();
     loop.output = files_->cost();
   });
   RunReport report = report_of(loop);
-  add_outcome(loop, json_);
+  add_status(json_, loop.status, loop.message);
+  add_members(loop_members, loop, json_);
   analysis_.summarise(json_, report);
-  json_["total_wall_s"] = std::chrono::duration<double>(Clock::now() - begin_).count();
+  add_members(total_members, std::chrono::duration<double>(Clock::now() - begin_).count(), json_);
   if (has_files()) {
     keep_case();
     io::write_json(options_.directory / "run.json", json_);
@@ -194,14 +260,10 @@ RunReport RunSession::finish() {
 
 Json RunSession::describe() const {
   Json json = describe_run(case_, plan_.results.words.analysis);
-  json["resumable"] = analysis_.resumable() != nullptr;
+  add_members(resumable_members, analysis_.resumable() != nullptr, json);
   analysis_.describe(json);
   if (plan_.results.mesh != nullptr) describe_regions(*plan_.results.mesh, plan_.materials, json);
-  json["columns"] = Json::array();
-  for (const ColumnLabel& column : plan_.columns)
-    json["columns"].push_back({{"name", column.name}, {"unit", column.unit}});
-  add_warnings(json);
-  add_resumed(json);
+  add_members(begun_run_members, {plan_.columns, warnings_with_earlier(), resumed_at()}, json);
   return json;
 }
 
@@ -218,18 +280,18 @@ Json RunSession::array_before(const char* key) const {
 }
 
 /// Those before a checkpoint stay; what is said again at the start stands there once.
-void RunSession::add_warnings(Json& json) const {
+Json RunSession::warnings_with_earlier() const {
   Json all = array_before("warnings");
   for (const std::string& warning : analysis_.warnings())
     if (std::find(all.begin(), all.end(), Json(warning)) == all.end()) all.push_back(warning);
-  json["warnings"] = std::move(all);
+  return all;
 }
 
-void RunSession::add_resumed(Json& json) const {
-  if (!from_) return;
+Json RunSession::resumed_at() const {
+  if (!from_) return absent();
   Json steps = array_before("resumed_at_steps");
   steps.push_back(from_->state.step);
-  json["resumed_at_steps"] = std::move(steps);
+  return steps;
 }
 
 RunReport RunSession::report_of(const Loop& loop) const {

@@ -65,8 +65,8 @@ class RunSession {
   [[nodiscard]] std::string what_is_kept();
   [[nodiscard]] Json describe() const;
   [[nodiscard]] Json array_before(const char* key) const;
-  void add_warnings(Json& json) const;
-  void add_resumed(Json& json) const;
+  [[nodiscard]] Json warnings_with_earlier() const;
+  [[nodiscard]] Json resumed_at() const;
   [[nodiscard]] RunReport report_of(const Loop& loop) const;
   [[nodiscard]] RunReport nothing_to_do() const;
   void drop_checkpoint(RunStatus status) const;
@@ -87,5 +87,8 @@ class RunSession {
   std::optional<Looper> looper_;
   Json json_;
 };
+
+/// What a session itself adds to run.json, besides run_file_members() and what its analysis adds.
+std::vector<MemberText> session_members();
 
 }  // namespace rondo::study

@@ -60,37 +60,90 @@ void copy_mesh(const Case& c, const std::filesystem::path& directory) {
   io::write_file(directory / mesh_copy, text);
 }
 
+constexpr Member<BuildRecord> record_members[] = {
+    {"commit", "string", "", "Commit of the sources; \"unknown\" for a copy without git",
+     [](const BuildRecord& r) -> Json { return r.commit; }},
+    {"modified", "boolean or null", "", "Files differed from the commit; null: unknown",
+     [](const BuildRecord& r) -> Json { return r.modified ? Json(*r.modified) : Json(); }},
+    {"compiler", "string", "", "Name, version, kind of build; sanitizers",
+     [](const BuildRecord& r) -> Json { return r.compiler; }},
+    {"flags", "string", "", "Flags of every module; each module adds its warnings",
+     [](const BuildRecord& r) -> Json { return r.flags; }},
+    {"libraries", "object of string", "", "Name and version of the libraries of the build",
+     [](const BuildRecord& r) {
+       Json libraries;
+       for (const auto& [name, number] : r.libraries) libraries[name] = number;
+       return libraries;
+     }},
+};
+
+struct Program {};
+constexpr Member<Program> program_members[] = {
+    {"version", "string", "", "Version of the program",
+     [](const Program&) -> Json { return version; }},
+    {"build", "string", "", "Kind of build", [](const Program&) -> Json { return build_options; }},
+    {"build_id", "string", "",
+     "Hash of the library modules in the program; program and Python module of one build have the "
+     "same",
+     [](const Program&) -> Json { return build_id(); }},
+    {"build_record", "object", "",
+     "What the program was built from. Every JSON document of the program has it, and reduced "
+     "models as an attribute; `rondo --version` prints it",
+     [](const Program&) { return build_record_json(); }, build_record_members},
+    {"dispatch", "string", "",
+     "Instruction set of the inner loops: \"avx512\", \"avx2\" or \"baseline\"",
+     [](const Program&) -> Json { return dispatch_level(); }},
+    {"host", "string", "", "Name of the machine",
+     [](const Program&) -> Json { return io::host_name(); }},
+};
+
+struct Ending {
+  std::string_view status, message;
+};
+constexpr Member<Ending> status_members[] = {
+    {"status", "string", "",
+     "\"running\", \"done\", \"interrupted\" or \"failed\"; \"running\" without a process: the run "
+     "was killed",
+     [](const Ending& e) -> Json { return e.status; }},
+    {"message", "string", "", "Reason of a failure: step, time, quantity",
+     [](const Ending& e) { return e.message.empty() ? absent() : Json(e.message); }},
+};
+
+constexpr Member<Case> title_members[] = {
+    {"title", "string", "", "`title` of the case", [](const Case& c) -> Json { return c.title; }},
+};
+constexpr Member<std::string_view> begun_members[] = {
+    {"process", "integer", "", "Number of the process",
+     [](const std::string_view&) -> Json { return ::getpid(); }},
+    {"analysis", "string", "", "\"dynamic\", \"crush\", \"steady-rolling\" or \"modes\"",
+     [](const std::string_view& analysis) -> Json { return analysis; }},
+};
+
 }  // namespace
 
 Json build_record_json() {
-  const BuildRecord record = build_record();
-  Json json, libraries;
-  json["commit"] = record.commit;
-  json["modified"] = record.modified ? Json(*record.modified) : Json();
-  json["compiler"] = record.compiler;
-  json["flags"] = record.flags;
-  for (const auto& [name, number] : record.libraries) libraries[name] = number;
-  json["libraries"] = std::move(libraries);
-  return json;
+  return object_of(record_members, build_record());
+}
+
+std::vector<MemberText> build_record_members() {
+  return texts_of(record_members);
 }
 
 void describe_program(Json& json) {
-  json["version"] = version;
-  json["build"] = build_options;
-  json["build_id"] = build_id();
-  json["build_record"] = build_record_json();
-  json["dispatch"] = dispatch_level();
-  json["host"] = io::host_name();
+  add_members(program_members, {}, json);
 }
 
 Json describe_run(const Case& c, std::string_view analysis) {
-  Json j;
-  j["status"] = "running";
-  j["title"] = c.title;
+  Json j = object_of(status_members, {"running", {}});
+  add_members(title_members, c, j);
   describe_program(j);
-  j["process"] = ::getpid();
-  j["analysis"] = analysis;
+  add_members(begun_members, analysis, j);
   return j;
+}
+
+std::vector<MemberText> run_file_members() {
+  return joined({texts_of(status_members), texts_of(title_members), texts_of(program_members),
+                 texts_of(begun_members)});
 }
 
 std::string text_in(const Json& json, const char* key) {
@@ -156,16 +209,14 @@ void write_case_file(const Case& c, const RunOptions& options) {
 }
 
 void note_failure(const RunOptions& options, Json json, const std::exception& error) noexcept {
-  json["status"] = "failed";
   const bool memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-  json["message"] = memory ? "not enough memory" : error.what();
+  add_status(json, RunStatus::failed, memory ? "not enough memory" : error.what());
   io::overwrite_json(options.directory / "run.json", json);  // the disk may be full
 }
 
 void add_status(Json& json, RunStatus status, const std::string& message) {
   static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};
-  json["status"] = names[static_cast<std::size_t>(status)];
-  if (!message.empty()) json["message"] = message;
+  add_members(status_members, {names[static_cast<std::size_t>(status)], message}, json);
 }
 
 const char* dispatch_level() {

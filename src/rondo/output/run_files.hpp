@@ -3,26 +3,27 @@
 #pragma once
 #include <cstddef>
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
+#include "rondo/case/schema/members.hpp"
 #include "rondo/contact/coupled/problem_file.hpp"
 #include "rondo/io/directory.hpp"
 #include "rondo/output/run_options.hpp"
 
 namespace rondo::study {
 
-using Json = nlohmann::ordered_json;
-
 /// The build of the program: commit, modified, compiler, flags, libraries. All documents use the
 /// same keys.
 [[nodiscard]] Json build_record_json();
+std::vector<MemberText> build_record_members();
 
 /// Adds the program that wrote it and the host: version, build, build id, build record, kernels.
 void describe_program(Json& json);
 
 /// The first keys of run.json, with the status "running".
 Json describe_run(const Case& c, std::string_view analysis);
+/// The members that these two and add_status() write.
+std::vector<MemberText> run_file_members();
 
 /// The string of a key; empty if there is none, or the value is not a string.
 std::string text_in(const Json& json, const char* key);

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// docs/results.md has the columns of history.csv and contact.csv that their tables give.
+/// docs/results.md has the columns of history.csv and contact.csv, and the members of run.json,
+/// that their tables give; so has python/rondo/data/members.py.
 #include "support/manual.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "rondo/analysis/registry.hpp"
 #include "rondo/output/columns.hpp"
+#include "rondo/study/run_json/run_json.hpp"
 #include "unit/case/case_fixture.hpp"
 
 namespace rondo::study::manual_test {
@@ -60,6 +64,23 @@ TEST(Manual, HasTheColumns) {
        table_of("contact.csv", labels_of(contact_columns(false))),
        table_of("contact.csv of a wheel in three dimensions", labels_of(contact_columns(true))),
        table_of("contact.csv steady-rolling", further_contact_of(rolls))});
+}
+
+TEST(Manual, HasTheMembersOfRunJson) {
+  std::vector<rondo::test::ManualTable> tables;
+  std::set<std::string> all;
+  for (const MemberGroup& group : run_json_groups()) {
+    std::string rows = "| key | type | unit | meaning |\n|---|---|---|---|\n";
+    for (const auto& [path, member] : paths_of(group.members)) {
+      EXPECT_TRUE(all.insert(path).second) << path << " has two rows";
+      rows += rondo::test::manual_row({fmt::format("`{}`", path), std::string(member.type),
+                                       std::string(member.unit), std::string(member.meaning)});
+    }
+    tables.push_back({fmt::format("members: {}", group.of), rows});
+  }
+  rondo::test::expect_in_manual(test::source_folder() / "docs" / "results.md", tables);
+  rondo::test::expect_file(test::source_folder() / "python" / "rondo" / "data" / "members.py",
+                           python_members());
 }
 
 }  // namespace

@@ -25,6 +25,34 @@ std::string text_of(const RegionFigures& region, bool solid) {
                      solid ? "volume" : "area", region.size, solid ? "m3" : "m2", region.elements);
 }
 
+struct Sized {
+  RegionFigures figures;
+  bool solid;
+};
+constexpr Member<Sized> whole_rows[] = {
+    {"mass", "number", "kg/m", "Mass of the body",
+     [](const Sized& s) -> Json { return s.figures.mass; }},
+    {"area", "number", "m2", "Area of the undeformed body; not of a 3D wheel",
+     [](const Sized& s) { return s.solid ? absent() : Json(s.figures.size); }},
+    {"volume", "number", "m3", "Volume of an undeformed 3D wheel",
+     [](const Sized& s) { return s.solid ? Json(s.figures.size) : absent(); }},
+};
+constexpr Member<Sized> region_rows[] = {
+    {"name", "string", "", "Name of the region; \"\": cells in none",
+     [](const Sized& s) -> Json { return s.figures.name; }},
+    {"elements", "integer", "", "Number of its elements",
+     [](const Sized& s) -> Json { return s.figures.elements; }},
+    {"area", "number", "m2", "Its undeformed area; not of a 3D wheel", whole_rows[1].value},
+    {"volume", "number", "m3", "Its undeformed volume, of a 3D wheel", whole_rows[2].value},
+    {"mass", "number", "kg/m", "Its mass", whole_rows[0].value},
+};
+
+constexpr Member<std::vector<Sized>> list_rows[] = {
+    {"regions", "array", "", "Mass and size of each physical surface or region of the case",
+     [](const std::vector<Sized>& all) { return objects_of(region_rows, all); },
+     [] { return texts_of(region_rows); }},
+};
+
 }  // namespace
 
 std::vector<RegionFigures> region_figures(const mesh::Mesh& mesh,
@@ -62,17 +90,15 @@ std::vector<Told> region_lines(const mesh::Mesh& mesh, std::span<const fem::Mate
 
 void describe_regions(const mesh::Mesh& mesh, std::span<const fem::Material> materials,
                       Json& json) {
-  const char* const size = mesh.is_solid() ? "volume" : "area";
   const std::vector<RegionFigures> regions = region_figures(mesh, materials);
-  const RegionFigures whole = whole_of(regions);
-  json["mass"] = whole.mass;
-  json[size] = whole.size;
-  json["regions"] = Json::array();
-  for (const RegionFigures& region : regions)
-    json["regions"].push_back({{"name", region.name},
-                               {"elements", region.elements},
-                               {size, region.size},
-                               {"mass", region.mass}});
+  std::vector<Sized> all;
+  for (const RegionFigures& region : regions) all.push_back({region, mesh.is_solid()});
+  add_members(whole_rows, {whole_of(regions), mesh.is_solid()}, json);
+  add_members(list_rows, all, json);
+}
+
+std::vector<MemberText> region_members() {
+  return joined({texts_of(whole_rows), texts_of(list_rows)});
 }
 
 }  // namespace rondo::study

@@ -28,5 +28,6 @@ struct RegionFigures {
 
 /// Adds "mass", "area" or "volume", and "regions" to run.json.
 void describe_regions(const mesh::Mesh& mesh, std::span<const fem::Material> materials, Json& json);
+std::vector<MemberText> region_members();
 
 }  // namespace rondo::study

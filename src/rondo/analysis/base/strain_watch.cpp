@@ -10,6 +10,47 @@
 #include "rondo/model/corotated.hpp"
 
 namespace rondo::study {
+namespace {
+
+struct Strained {
+  const fem::LargestDeformation& largest;
+  std::vector<double> strain_place, jacobian_place;
+};
+constexpr Member<Strained> strain_rows[] = {
+    {"strain_max", "number", "",
+     "Largest |principal strain| of the small-strain law, at the centers of the elements, in the "
+     "frame of the body. Evaluated every 250 steps, at snapshots at least 100 steps apart, at the "
+     "start and at the end ([theory.md](theory.md), 2.9), and at each increment of a crush. For "
+     "[rubber](rubber.md): of the symmetric part of ∂u/∂X",
+     [](const Strained& s) -> Json { return s.largest.found.strain; }},
+    {"strain_max_cell", "integer", "",
+     "Cell of the largest strain, a row of `/mesh/cells` (`/mesh/hexahedra` of a 3D wheel)",
+     [](const Strained& s) -> Json { return s.largest.found.strain_cell; }},
+    {"strain_max_place", "array of number", "m",
+     "Middle of the undeformed cell of the largest strain",
+     [](const Strained& s) -> Json { return s.strain_place; }},
+    {"strain_max_time", "number", "s",
+     "Time of the largest strain; in a crush the fraction of the depth, with tables that of the "
+     "increments",
+     [](const Strained& s) -> Json { return s.largest.strain_time; }},
+    {"jacobian_min", "number", "",
+     "Smallest J = det(I + ∂u/∂X) at the corners of the elements, evaluated at the same times; 0 "
+     "or less: an element is inverted, at least at a corner",
+     [](const Strained& s) -> Json { return s.largest.found.jacobian; }},
+    {"jacobian_min_cell", "integer", "", "Cell of the smallest J, as for the strain",
+     [](const Strained& s) -> Json { return s.largest.found.jacobian_cell; }},
+    {"jacobian_min_place", "array of number", "m",
+     "Middle of the undeformed cell of the smallest J",
+     [](const Strained& s) -> Json { return s.jacobian_place; }},
+    {"jacobian_min_time", "number", "s", "Time of the smallest J, as for the strain",
+     [](const Strained& s) -> Json { return s.largest.jacobian_time; }},
+};
+
+}  // namespace
+
+std::vector<MemberText> strain_members() {
+  return texts_of(strain_rows);
+}
 
 bool is_look(long long step, bool snapshot, long long before) noexcept {
   if (step % steps_between_looks == 0) return true;
@@ -82,15 +123,8 @@ std::string StrainWatch::small_strain_warning(const TimeWords& words) const {
 void StrainWatch::summarise(const TimeWords& words, Json& j, RunReport& r) const {
   const fem::Deformation& found = largest_.found;
   if (!std::isfinite(found.jacobian)) return;  // the run had no look
-  const auto place = [&](std::size_t cell) { return Json(middle_of(cell)); };
-  j["strain_max"] = found.strain;
-  j["strain_max_cell"] = found.strain_cell;
-  j["strain_max_place"] = place(found.strain_cell);
-  j["strain_max_time"] = largest_.strain_time;
-  j["jacobian_min"] = found.jacobian;
-  j["jacobian_min_cell"] = found.jacobian_cell;
-  j["jacobian_min_place"] = place(found.jacobian_cell);
-  j["jacobian_min_time"] = largest_.jacobian_time;
+  add_members(strain_rows, {largest_, middle_of(found.strain_cell), middle_of(found.jacobian_cell)},
+              j);
   r.strain_max = found.strain;
   r.jacobian_min = found.jacobian;
   if (found.linear_strain <= small_strain) return;

@@ -61,4 +61,7 @@ class StrainWatch {
   fem::LargestDeformation largest_;
 };
 
+/// What summarise() adds to run.json.
+std::vector<MemberText> strain_members();
+
 }  // namespace rondo::study

@@ -175,14 +175,6 @@ HubWatch::Seen HubWatch::look(Vec2 center, double time) {
           {}};
 }
 
-Json rim_facts(const RimBody& rim) {
-  Json free = Json::array();
-  if (rim.free_x) free.push_back("speed");
-  if (rim.free_y) free.push_back("height");
-  if (rim.free_spin) free.push_back("angular_velocity");
-  return {{"free", free}, {"mass", rim.mass}, {"inertia", rim.inertia}};
-}
-
 void tell_rim(const Case& c, Setup& s) {
   const RimBody& rim = *s.model.rim;
   const bool solid = s.model.solid.has_value();

@@ -5,7 +5,6 @@
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/model/stability/rim_step.hpp"
-#include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
 
@@ -46,9 +45,6 @@ class HubWatch {
   double held_ = 0.0;         ///< radius of what is held; 0: nothing to look at [m]
   bool told_ = false;
 };
-
-/// For run.json: what is free, mass and inertia with the bonded nodes.
-[[nodiscard]] Json rim_facts(const dynamics::RimBody& rim);
 
 /// Adds figures: what is free, masses, loads at the end of the run. @pre a rim
 void tell_rim(const Case& c, Setup& s);

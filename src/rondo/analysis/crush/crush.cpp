@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "rondo/analysis/base/disk.hpp"
+#include "rondo/analysis/base/shared_members.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/physical.hpp"
@@ -73,6 +74,35 @@ class CrushAnalysis final : public Analysis {
   std::optional<std::string> trouble_;
 };
 
+struct Planned {
+  const AnalysisCase& a;
+  const CrushPath& path;
+  double prepare_s;
+};
+constexpr Member<Planned> planned_rows[] = {
+    {"depth", "number", "m", "Depth at the end",
+     [](const Planned& p) -> Json { return p.path.depth(p.path.n_increments()); }},
+    {"depth_max", "number", "m", "Largest depth on the way",
+     [](const Planned& p) -> Json { return p.path.largest_depth(); }},
+    {"increments", "integer", "", "Increments of the depth that are planned",
+     [](const Planned& p) -> Json { return p.a.increments; }},
+    {"slide", "number", "m", "Slide at the end; 0: none",
+     [](const Planned& p) -> Json { return p.path.slide(p.path.n_increments()); }},
+    {"slide_increments", "integer", "",
+     "Increments of the slide that are planned; 0 without a slide, and with tables",
+     [](const Planned& p) -> Json { return p.a.slide_increments; }},
+    {"factor_wall_s", "number", "s", "Wall time to factorise and condense the stiffness",
+     [](const Planned& p) -> Json { return p.prepare_s; }},
+};
+constexpr Member<int> increments_rows[] = {
+    {"increments_done", "integer", "", "Increments solved, of both; their results are kept",
+     [](const int& n) -> Json { return n; }},
+};
+constexpr Member<double> equilibrium_rows[] = {
+    {"equilibrium_residual_max", "number", "", "Largest |K u − Hᵀ r| over |Hᵀ r|",
+     [](const double& residual) -> Json { return residual; }},
+};
+
 std::string reached(int increments, double depth, double slide) {
   const std::string text = fmt::format("{} increments to a depth of {:.6g} m", increments, depth);
   return slide == 0.0 ? text : fmt::format("{} and a slide of {:.6g} m", text, slide);
@@ -125,15 +155,8 @@ void CrushAnalysis::prepare() {
 }
 
 void CrushAnalysis::describe(Json& j) const {
-  const CrushPath& path = setup_.path;
-  j["nodes"] = setup_.mesh.n_nodes();
-  j["dofs"] = setup_.n_dofs();
-  j["depth"] = path.depth(n_increments());
-  j["depth_max"] = path.largest_depth();
-  j["increments"] = case_.analysis.increments;
-  j["slide"] = path.slide(n_increments());
-  j["slide_increments"] = case_.analysis.slide_increments;
-  j["factor_wall_s"] = prepare_s_;
+  add_size(setup_.mesh.n_nodes(), setup_.n_dofs(), j);
+  add_members(planned_rows, {case_.analysis, setup_.path, prepare_s_}, j);
   solver_->describe(j);
 }
 
@@ -198,14 +221,12 @@ void CrushAnalysis::summarise(Json& j, RunReport& r) const {
   r.penetration_max_m = penetration_;
   const bool tables = setup_.path.is_of_tables();
   strain_.summarise({"", tables ? " of the increments" : " of the depth"}, j, r);
-  j["increments_done"] = increments_;
-  j["steps_done"] = increments_;
-  j["contact_residual_max"] = residual_;
-  j["equilibrium_residual_max"] = equilibrium_;
-  j["energy_residual_relative"] = state_.works.relative;
-  j["energy_residual_bound"] = r.energy_residual_bound;
-  j["energy_exchanged"] = state_.works.exchanged;
-  j["penetration_max_m"] = penetration_;
+  add_members(increments_rows, increments_, j);
+  add_steps_done(r, j);
+  add_contact_residual(r, j);
+  add_members(equilibrium_rows, equilibrium_, j);
+  add_energy_residual(r, state_.works.exchanged, j);
+  add_penetration(r, j);
   solver_->summarise(state_, j, r);
 }
 
@@ -213,6 +234,11 @@ void CrushAnalysis::summarise(Json& j, RunReport& r) const {
 
 std::unique_ptr<Analysis> make_crush(const Case& c, const RunOptions& options) {
   return std::make_unique<CrushAnalysis>(c, options);
+}
+
+std::vector<MemberText> crush_members() {
+  return joined({texts_of(planned_rows), texts_of(increments_rows), texts_of(equilibrium_rows),
+                 crush_solver_members()});
 }
 
 }  // namespace rondo::study

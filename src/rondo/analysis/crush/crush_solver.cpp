@@ -8,6 +8,25 @@
 #include "rondo/analysis/crush/rubber_solver.hpp"
 
 namespace rondo::study {
+namespace {
+
+constexpr Member<std::size_t> condensed_rows[] = {
+    {"candidates_condensed", "integer", "",
+     "Contact nodes that the stiffness was condensed on at the end",
+     [](const std::size_t& n) -> Json { return n; }},
+};
+
+struct Swept {
+  int sweeps, pivoted;
+};
+constexpr Member<Swept> sweep_rows[] = {
+    {"sweeps_max", "integer", "", "Most sweeps in an increment",
+     [](const Swept& s) -> Json { return s.sweeps; }},
+    {"pivoted_increments", "integer", "", "Increments solved by Lemke's pivoting instead of sweeps",
+     [](const Swept& s) -> Json { return s.pivoted; }},
+};
+
+}  // namespace
 
 std::unique_ptr<CrushSolver> make_crush_solver(const Case& c, const RunOptions& options,
                                                const CrushSetup& setup) {
@@ -22,8 +41,15 @@ void SweepCount::add(const statics::CrushReport& report) noexcept {
 }
 
 void SweepCount::summarise(Json& j) const {
-  j["sweeps_max"] = sweeps_;
-  j["pivoted_increments"] = pivoted_;
+  add_members(sweep_rows, {sweeps_, pivoted_}, j);
+}
+
+void add_condensed(std::size_t candidates, Json& json) {
+  add_members(condensed_rows, candidates, json);
+}
+
+std::vector<MemberText> crush_solver_members() {
+  return joined({texts_of(condensed_rows), texts_of(sweep_rows)});
 }
 
 }  // namespace rondo::study

@@ -48,4 +48,10 @@ class SweepCount {
   int pivoted_ = 0;  ///< increments that the sweeps alone did not solve
 };
 
+/// Adds to run.json how many contact nodes the stiffness was condensed on.
+void add_condensed(std::size_t candidates, Json& json);
+
+/// What these two add to run.json.
+std::vector<MemberText> crush_solver_members();
+
 }  // namespace rondo::study

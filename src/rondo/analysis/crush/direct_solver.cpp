@@ -31,7 +31,7 @@ class DirectSolver final : public CrushSolver {
   }
 
   void summarise(const statics::CrushState& /*state*/, Json& j, RunReport& /*r*/) const override {
-    j["candidates_condensed"] = body_->set().size();
+    add_condensed(body_->set().size(), j);
     sweeps_.summarise(j);
   }
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "rondo/analysis/base/shared_members.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/crush/direct_solver.hpp"
 #include "rondo/analysis/crush/latin_outcome.hpp"
@@ -32,6 +33,64 @@ using statics::Condensation;
 constexpr int most_iterations = 2000;
 constexpr double last_cut = 0.5;       ///< share of the tolerance that modes left out may have
 constexpr double most_foreign = 1e-6;  ///< of a field's loads
+
+struct LatinBegin {
+  const Case& c;
+  const RunOptions& options;
+  double direction;  ///< [N/m²]
+  int fields;
+};
+constexpr Member<LatinBegin> latin_rows[] = {
+    {"solver", "string", "", "\"latin\" or \"latin-pgd\"",
+     [](const LatinBegin& b) -> Json {
+       return b.c.analysis.solver == CrushMethod::latin_pgd ? "latin-pgd" : "latin";
+     }},
+    {"search_direction", "number", "N/m2", "Stiffness k of the search direction that was used",
+     [](const LatinBegin& b) -> Json { return b.direction; }},
+    {"modes_from", "string", "", "Only with `--modes-from`: the run whose modes it began with",
+     [](const LatinBegin& b) {
+       const std::string& told = b.options.modes_told;
+       if (b.options.modes_from.empty()) return absent();
+       return Json(told.empty() ? b.options.modes_from.string() : told);
+     }},
+    {"fields_begun_with", "integer", "",
+     "Only with `--modes-from`: how many fields of that run were used",
+     [](const LatinBegin& b) { return b.options.modes_from.empty() ? absent() : Json(b.fields); }},
+};
+
+constexpr Member<statics::LatinReport> latin_end_rows[] = {
+    {"iterations", "integer", "", "Number of LATIN iterations",
+     [](const statics::LatinReport& e) -> Json { return e.iterations; }},
+    {"indicator", "number", "", "Indicator at the end, of the solution before the last cut",
+     [](const statics::LatinReport& e) -> Json { return e.indicator; }},
+    {"residual", "number", "", "Residual at the end, of the solution before the last cut",
+     [](const statics::LatinReport& e) -> Json { return e.residual; }},
+};
+constexpr Member<std::size_t> solves_rows[] = {
+    {"condensation_solves", "integer", "",
+     "Solves with the stiffness of the body for the compliance: two for each contact node "
+     "condensed",
+     [](const std::size_t& solves) -> Json { return solves; }},
+};
+
+struct PgdEnd {
+  const statics::Pgd& pgd;
+  const LatinOutcome* outcome;  ///< null: not converged
+  double residual;
+};
+constexpr Member<PgdEnd> pgd_rows[] = {
+    {"modes", "integer", "",
+     "`\"latin-pgd\"` only: modes of the solution written, after the last cut",
+     [](const PgdEnd& e) -> Json { return e.outcome ? e.outcome->modes() : e.pgd.modes(); }},
+    {"modes_max", "integer", "",
+     "`\"latin-pgd\"` only: largest number of modes during the iterations",
+     [](const PgdEnd& e) -> Json { return e.pgd.most_modes(); }},
+    {"solves", "integer", "", "`\"latin-pgd\"` only: solves for fields",
+     [](const PgdEnd& e) -> Json { return e.pgd.solves(); }},
+    {"residual_of_modes", "number", "",
+     "`\"latin-pgd\"` only: residual of the solution written; null in a run that did not complete",
+     [](const PgdEnd& e) { return e.outcome ? Json(e.residual) : Json(); }},
+};
 
 class LatinSolver final : public CrushSolver {
  public:
@@ -260,30 +319,24 @@ statics::CrushReport LatinSolver::take(int k, statics::CrushState& state, std::s
 }
 
 void LatinSolver::describe(Json& j) const {
-  j["solver"] = is_pgd() ? "latin-pgd" : "latin";
-  j["search_direction"] = direction_;
-  if (options_.modes_from.empty()) return;
-  const std::string& told = options_.modes_told;
-  j["modes_from"] = told.empty() ? options_.modes_from.string() : told;
-  j["fields_begun_with"] = fields_begun_with_;
+  add_members(latin_rows, {case_, options_, direction_, fields_begun_with_}, j);
 }
 
 void LatinSolver::summarise(const statics::CrushState& /*state*/, Json& j, RunReport& /*r*/) const {
   if (convergence_) j["files"]["convergence.csv"] = as_json(convergence_->place());
-  j["candidates_condensed"] = body_->set().size();
-  j["iterations"] = report_.iterations;
-  j["indicator"] = report_.indicator;
-  j["residual"] = report_.residual;
-  j["solve_wall_s"] = solve_wall_s_;
-  j["condensation_solves"] = 2 * body_->set().size();
-  if (!pgd_) return;
-  j["modes"] = outcome_ ? static_cast<int>(outcome_->modes()) : pgd_->modes();
-  j["modes_max"] = pgd_->most_modes();
-  j["solves"] = pgd_->solves();
-  j["residual_of_modes"] = outcome_ ? Json(residual_of_modes_) : Json();
+  add_condensed(body_->set().size(), j);
+  add_members(latin_end_rows, report_, j);
+  add_solve_wall(solve_wall_s_, j);
+  add_members(solves_rows, 2 * body_->set().size(), j);
+  if (pgd_) add_members(pgd_rows, {*pgd_, outcome_ ? &*outcome_ : nullptr, residual_of_modes_}, j);
 }
 
 }  // namespace
+
+std::vector<MemberText> latin_members() {
+  return joined(
+      {texts_of(latin_rows), texts_of(latin_end_rows), texts_of(solves_rows), texts_of(pgd_rows)});
+}
 
 std::unique_ptr<CrushSolver> make_latin_solver(const Case& c, const RunOptions& options,
                                                const CrushSetup& setup) {

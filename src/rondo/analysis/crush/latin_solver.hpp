@@ -9,4 +9,7 @@ namespace rondo::study {
                                                              const RunOptions& options,
                                                              const CrushSetup& setup);
 
+/// What it adds to run.json.
+std::vector<MemberText> latin_members();
+
 }  // namespace rondo::study

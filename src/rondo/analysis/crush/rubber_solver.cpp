@@ -29,7 +29,7 @@ class RubberSolver final : public CrushSolver {
   }
 
   void summarise(const statics::CrushState& state, Json& j, RunReport& r) const override {
-    j["candidates_condensed"] = rubber_->condensed();
+    add_condensed(rubber_->condensed(), j);
     dynamics::MaterialReport material;
     material.internal_work = state.works.internal;
     material.stored_energy = state.works.strain;

@@ -296,9 +296,7 @@ class ModesAnalysis final : public Analysis {
   }
   [[nodiscard]] std::vector<std::string> warnings() const override { return body_.warnings; }
   void describe(Json& json) const override {
-    json["nodes"] = report_.nodes;
-    json["dofs"] = report_.dofs;
-    json["spins"] = spins_.size() + sweep_.size();
+    describe_modes(report_, spins_.size() + sweep_.size(), json);
   }
 
   Progress begin(Recorder&) override {
@@ -343,8 +341,7 @@ class ModesAnalysis final : public Analysis {
                    modes_json(case_, request_, report_, json));
     r.steps = at.done;
     r.reached = fmt::format("{} of {} spins", at.done, at.all);
-    json["spins_done"] = at.done;
-    json["residual_max"] = report_.residual_max;
+    summarise_modes(report_, json);
   }
 
   [[nodiscard]] ModesReport take_report() { return std::move(report_); }

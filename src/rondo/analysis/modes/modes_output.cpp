@@ -10,6 +10,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "rondo/analysis/base/shared_members.hpp"
+
 namespace rondo::study {
 namespace {
 
@@ -38,7 +40,31 @@ Json summary_of(const SpinSummary& s) {
   return j;
 }
 
+constexpr Member<std::size_t> spins_rows[] = {
+    {"spins", "integer", "", "Spins that were asked for, those of a sweep included",
+     [](const std::size_t& n) -> Json { return n; }},
+};
+constexpr Member<ModesReport> modes_end_rows[] = {
+    {"spins_done", "integer", "", "Spins whose modes were found",
+     [](const ModesReport& r) -> Json { return r.spins.size() + r.sweep.size(); }},
+    {"residual_max", "number", "", "Largest residual of a mode",
+     [](const ModesReport& r) -> Json { return r.residual_max; }},
+};
+
 }  // namespace
+
+void describe_modes(const ModesReport& report, std::size_t spins, Json& json) {
+  add_size(report.nodes, report.dofs, json);
+  add_members(spins_rows, spins, json);
+}
+
+void summarise_modes(const ModesReport& report, Json& json) {
+  add_members(modes_end_rows, report, json);
+}
+
+std::vector<MemberText> modes_members() {
+  return joined({texts_of(spins_rows), texts_of(modes_end_rows)});
+}
 
 std::string name_of(Wave wave) {
   static constexpr std::array<const char*, 5> names{"", "standing", "forward", "backward", "rigid"};

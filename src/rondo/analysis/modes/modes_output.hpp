@@ -21,4 +21,9 @@ std::string campbell_table(const std::vector<ModeLine>& modes, int n_sectors);
 Json modes_json(const Case& c, const ModesRequest& request, const ModesReport& report,
                 const Json& run);
 
+// run.json of `rondo modes`, besides shared_members(). @param spins asked for
+void describe_modes(const ModesReport& report, std::size_t spins, Json& json);
+void summarise_modes(const ModesReport& report, Json& json);
+std::vector<MemberText> modes_members();
+
 }  // namespace rondo::study

@@ -47,50 +47,109 @@ void refuse_other_phases(const Case& c, const ReducedRun& run) {
                    "motion.angular_velocity as a table from the start, [[0, w], [1, w]]");
 }
 
-void describe_reduced(const ReducedRun& run, const RunOptions& options, Json& json) {
-  json["reduced_model"] = as_utf8(options.reduced.string());
-  json["reduced_modes"] = run.file.model.size();
-  json["displacement_modes"] = run.file.displacement_modes;
-  json["velocity_modes"] = run.file.velocity_modes;
-  json["reduced_frame"] = name_in(frame_names, run.file.model.frame);
-  json["reduced_contact"] = name_in(contact_names, run.file.model.form);
-  json["reduced_step"] = options.reduced_step;
-  if (run.file.model.form != rom::ContactForm::nodes)
-    json["contact_points"] = run.file.model.contact.points.size();
-  json["step_factor"] = run.step_factor;
-  json["full_step"] = run.full_step;
-  json["lifted"] = run.lifts;
-  const ErrorEstimate& estimate = run.file.estimate;
-  json["reduced_error_estimate"] = nullptr;
-  if (estimate.errors.empty()) {
-    json["reduced_error_estimate_missing"] = as_utf8(estimate.none);
-    return;
-  }
-  const ForceErrors most = estimate.estimate();
-  const auto known = [](double error) { return std::isnan(error) ? Json() : Json(error); };
-  json["reduced_error_estimate"] = {{"force_x", most.x},
-                                    {"force_y", most.y},
-                                    {"force_x_of_itself", known(most.x_of_itself)},
-                                    {"friction_power", known(most.friction_power)}};
+/// Null where there is next to none of what the error is of.
+Json known(double error) {
+  return std::isnan(error) ? Json() : Json(error);
 }
 
-void add_figures(const ReducedRun& run, double time, Json& json) {
-  const rom::StepFigures& f = run.figures;
-  const double steps = static_cast<double>(std::max(1LL, f.contact_steps));
-  json["reduced"] = {{"matrices_factored", f.factored},
-                     {"factor_wall_s", f.factor_wall_s},
-                     {"step_wall_s", f.wall_s},
-                     {"contact_wall_s", f.contact_wall_s},
-                     {"slowest_step_s", f.slowest_step_s},
-                     {"realtime_factor", f.wall_s > 0.0 ? time / f.wall_s : 0.0},
-                     {"contact_tables", f.tables},
-                     {"contact_steps", f.contact_steps},
-                     {"contact_iterations_mean", static_cast<double>(f.iterations) / steps},
-                     {"contact_iterations_max", f.iterations_max},
-                     {"contacts_max", f.contacts_max},
-                     {"steps_with_more_rows_than_modes", f.more_rows_than_modes},
-                     {"steps_not_converged", f.not_converged}};
-}
+constexpr Member<ForceErrors> estimate_rows[] = {
+    {"force_x", "number", "", "Error of the mean F_x, over the mean F_y",
+     [](const ForceErrors& e) -> Json { return e.x; }},
+    {"force_y", "number", "", "Error of the mean F_y, over itself",
+     [](const ForceErrors& e) -> Json { return e.y; }},
+    {"force_x_of_itself", "number", "", "Error of the mean F_x, over itself; null: unknown",
+     [](const ForceErrors& e) { return known(e.x_of_itself); }},
+    {"friction_power", "number", "",
+     "Error of the mean power taken by friction, over itself; null: unknown",
+     [](const ForceErrors& e) { return known(e.friction_power); }},
+};
+
+struct Reduced {
+  const ReducedRun& run;
+  const RunOptions& options;
+};
+constexpr Member<Reduced> reduced_rows[] = {
+    {"reduced_model", "string", "", "File of the model",
+     [](const Reduced& k) -> Json { return as_utf8(k.options.reduced.string()); }},
+    {"reduced_modes", "integer", "", "Number of modes",
+     [](const Reduced& k) -> Json { return k.run.file.model.size(); }},
+    {"displacement_modes", "integer", "", "Modes from displacements",
+     [](const Reduced& k) -> Json { return k.run.file.displacement_modes; }},
+    {"velocity_modes", "integer", "", "Modes from velocities",
+     [](const Reduced& k) -> Json { return k.run.file.velocity_modes; }},
+    {"reduced_frame", "string", "", "Frame of the modes: \"rectified\" or \"co-rotating\"",
+     [](const Reduced& k) -> Json { return name_in(frame_names, k.run.file.model.frame); }},
+    {"reduced_contact", "string", "", "Kind of contact: \"places\" or \"nodes\"",
+     [](const Reduced& k) -> Json { return name_in(contact_names, k.run.file.model.form); }},
+    {"reduced_step", "string", "", "Kind of step: \"midpoint\" or \"explicit\"",
+     [](const Reduced& k) -> Json { return k.options.reduced_step; }},
+    {"contact_points", "integer", "", "Number of contact points; not with contact at nodes",
+     [](const Reduced& k) {
+       const rom::ReducedModel& m = k.run.file.model;
+       return m.form == rom::ContactForm::nodes ? absent() : Json(m.contact.points.size());
+     }},
+    {"step_factor", "number", "", "Step over `full_step`",
+     [](const Reduced& k) -> Json { return k.run.step_factor; }},
+    {"full_step", "number", "s", "Step of the full run",
+     [](const Reduced& k) -> Json { return k.run.full_step; }},
+    {"lifted", "boolean", "", "Snapshots are fields, not [of modes](#snapshots-of-modes)",
+     [](const Reduced& k) -> Json { return k.run.lifts; }},
+    {"reduced_error_estimate", "object or null", "",
+     "Estimate of the error by the model ([reduced.md](reduced.md#7-files)); null: there is none",
+     [](const Reduced& k) {
+       const ErrorEstimate& estimate = k.run.file.estimate;
+       return estimate.errors.empty() ? Json() : object_of(estimate_rows, estimate.estimate());
+     },
+     [] { return texts_of(estimate_rows); }},
+    {"reduced_error_estimate_missing", "string", "", "Reason why there is no estimate",
+     [](const Reduced& k) {
+       const ErrorEstimate& estimate = k.run.file.estimate;
+       return estimate.errors.empty() ? Json(as_utf8(estimate.none)) : absent();
+     }},
+};
+
+struct ReducedEnd {
+  const rom::StepFigures& f;
+  double time;  ///< simulated [s]
+};
+constexpr Member<ReducedEnd> figure_rows[] = {
+    {"matrices_factored", "integer", "", "How often a change of spin required new matrices",
+     [](const ReducedEnd& e) -> Json { return e.f.factored; }},
+    {"factor_wall_s", "number", "s", "Wall time of the changes of matrices",
+     [](const ReducedEnd& e) -> Json { return e.f.factor_wall_s; }},
+    {"step_wall_s", "number", "s", "Wall time of all steps",
+     [](const ReducedEnd& e) -> Json { return e.f.wall_s; }},
+    {"contact_wall_s", "number", "s", "Wall time of the contact in all steps",
+     [](const ReducedEnd& e) -> Json { return e.f.contact_wall_s; }},
+    {"slowest_step_s", "number", "s", "Wall time of the slowest step",
+     [](const ReducedEnd& e) -> Json { return e.f.slowest_step_s; }},
+    {"realtime_factor", "number", "", "Simulated time over `step_wall_s`",
+     [](const ReducedEnd& e) -> Json { return e.f.wall_s > 0.0 ? e.time / e.f.wall_s : 0.0; }},
+    {"contact_tables", "integer", "", "Number of phases of contact nodes",
+     [](const ReducedEnd& e) -> Json { return e.f.tables; }},
+    {"contact_steps", "integer", "", "Steps with contact",
+     [](const ReducedEnd& e) -> Json { return e.f.contact_steps; }},
+    {"contact_iterations_mean", "number", "",
+     "Mean number of iterations of the contact law in a step with contact",
+     [](const ReducedEnd& e) -> Json {
+       return static_cast<double>(e.f.iterations) /
+              static_cast<double>(std::max(1LL, e.f.contact_steps));
+     }},
+    {"contact_iterations_max", "integer", "", "Most iterations in a step",
+     [](const ReducedEnd& e) -> Json { return e.f.iterations_max; }},
+    {"contacts_max", "integer", "", "Most contact points at once",
+     [](const ReducedEnd& e) -> Json { return e.f.contacts_max; }},
+    {"steps_with_more_rows_than_modes", "integer", "", "Steps with more rows of contact than modes",
+     [](const ReducedEnd& e) -> Json { return e.f.more_rows_than_modes; }},
+    {"steps_not_converged", "integer", "",
+     "Steps whose contact missed the tolerance, or whose brake no try held",
+     [](const ReducedEnd& e) -> Json { return e.f.not_converged; }},
+};
+constexpr Member<ReducedEnd> reduced_end_rows[] = {
+    {"reduced", "object", "", "Effort of the reduced steps",
+     [](const ReducedEnd& e) { return object_of(figure_rows, e); },
+     [] { return texts_of(figure_rows); }},
+};
 
 /// Snapshots of modes: no field of all nodes, and no stress.
 void plan_modes(const ReducedRun& run, io::ResultsLayout& results) {
@@ -144,11 +203,11 @@ class ReducedAnalysis final : public DynamicAnalysis {
   }
   void describe(Json& json) const override {
     DynamicAnalysis::describe(json);
-    describe_reduced(run_, options_, json);
+    add_members(reduced_rows, {run_, options_}, json);
   }
   void summarise(Json& json, RunReport& report) const override {
     DynamicAnalysis::summarise(json, report);
-    add_figures(run_, report.end_time, json);
+    add_members(reduced_end_rows, {run_.figures, report.end_time}, json);
     report.notes.push_back("error estimate of the model: " + in_words(run_.file.estimate));
     report.step_wall_s = run_.figures.wall_s;
     report.slowest_step = run_.figures.slowest_step_s / setup().model.dt;
@@ -223,6 +282,10 @@ class ReducedAnalysis final : public DynamicAnalysis {
 
 std::unique_ptr<Analysis> make_reduced(const Case& c, const RunOptions& options) {
   return std::make_unique<ReducedAnalysis>(c, options);
+}
+
+std::vector<MemberText> reduced_members() {
+  return joined({texts_of(reduced_rows), texts_of(reduced_end_rows)});
 }
 
 }  // namespace rondo::study

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "rondo/analysis/base/disk.hpp"
+#include "rondo/analysis/base/shared_members.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/physical.hpp"
@@ -16,6 +17,7 @@
 #include "rondo/analysis/figures/steady_figures.hpp"
 #include "rondo/analysis/steady/scheme_power.hpp"
 #include "rondo/analysis/steady/steady_case.hpp"
+#include "rondo/analysis/steady/steady_members.hpp"
 
 namespace rondo::study {
 namespace {
@@ -136,15 +138,9 @@ void SteadyRolling::prepare() {
 }
 
 void SteadyRolling::describe(Json& j) const {
-  j["nodes"] = body_->mesh.n_nodes();
-  j["dofs"] = body_->dofs;
-  if (is_solid(case_)) {
-    j["dimensions"] = 3;
-    j["sectors"] = body_->mesh.n_sectors;
-    j["camber"] = case_.motion.camber;
-  }
-  j["harmonics_wall_s"] = body_->harmonics_wall_s;
-  j["solve_wall_s"] = solve_s_;
+  add_size(body_->mesh.n_nodes(), body_->dofs, j);
+  if (is_solid(case_)) add_wheel({}, body_->mesh.n_sectors, case_.motion.camber, j);
+  describe_steady(body_->harmonics_wall_s, solve_s_, j);
 }
 
 Progress SteadyRolling::begin(Recorder& /*recorder*/) {
@@ -208,13 +204,12 @@ void SteadyRolling::summarise(Json& j, RunReport& r) const {
   r.contact_residual_max = residuals.contact;
   r.penetration_max_m = residuals.penetration;
   strain_.summarise({}, j, r);
-  j["steps_done"] = recorded_;
-  j["contact_residual_max"] = r.contact_residual_max;
-  j["energy_residual_relative"] = r.energy_residual_relative;
-  j["energy_residual_bound"] = r.energy_residual_bound;
-  j["penetration_max_m"] = r.penetration_max_m;
+  add_steps_done(r, j);
+  add_contact_residual(r, j);
+  add_energy_residual(r, {}, j);
+  add_penetration(r, j);
   if (recorded_ == 0) return;
-  j["steady"] = state_->describe();
+  state_->describe(j);
   for (std::string& note : state_->notes()) r.notes.push_back(std::move(note));
   for (std::string warning : warnings_of_state()) {
     j["warnings"].push_back(warning);

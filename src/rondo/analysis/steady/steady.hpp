@@ -15,4 +15,7 @@ namespace rondo::study {
 /// Its figures alone. @throws InputError likewise
 [[nodiscard]] DirectRun solve_steady_rolling(const Case& c, const RunOptions& options);
 
+/// What steady rolling has in run.json, besides shared_members().
+std::vector<MemberText> steady_members();
+
 }  // namespace rondo::study

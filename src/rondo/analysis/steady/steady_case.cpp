@@ -62,12 +62,6 @@ double floor_of(const Case& c) {
   return c.ground->shape.profile.front().y;
 }
 
-Json json_of(const statics::RollingPower& p) {
-  return {{"drive", p.drive},       {"mass", p.mass},     {"stiffness", p.stiffness},
-          {"friction", p.friction}, {"weight", p.weight}, {"scheme", p.scheme},
-          {"residual", p.residual}};
-}
-
 void demand_range(const Case& c, const RolledBody& body) {
   const double highest = 0.5 * body.mesh.n_sectors * c.analysis.samples_per_sector;
   demand_harmonic_range(c, body.materials, body.mass, highest * std::abs(spin_of(c)));

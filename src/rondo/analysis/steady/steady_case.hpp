@@ -25,7 +25,6 @@ namespace rondo::study {
 [[nodiscard]] inline int wrapped(int value, int count) noexcept {
   return (value % count + count) % count;
 }
-[[nodiscard]] Json json_of(const statics::RollingPower& power);
 
 /// How well a state meets the laws.
 struct SteadyResiduals {
@@ -56,8 +55,8 @@ class RolledState {
   [[nodiscard]] virtual double deflection() const = 0;
   /// Where power goes. @pre it is solved
   [[nodiscard]] virtual const statics::RollingPower& power() const noexcept = 0;
-  /// For run.json.
-  [[nodiscard]] virtual Json describe() const = 0;
+  /// Adds "steady" to run.json.
+  virtual void describe(Json& json) const = 0;
   /// Forces, height, speed and slip, for the user.
   [[nodiscard]] virtual std::vector<std::string> notes() const = 0;
 };

@@ -38,7 +38,7 @@ class SteadyState final : public RolledState {
   }
   [[nodiscard]] double deflection() const override { return window_.lowest() - solution_.height; }
   [[nodiscard]] const statics::RollingPower& power() const noexcept override { return power_; }
-  [[nodiscard]] Json describe() const override;
+  void describe(Json& json) const override;
   [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <span>
 
-#include "rondo/analysis/steady/steady_state.hpp"
+#include "rondo/analysis/steady/steady_members.hpp"
 
 namespace rondo::study {
 namespace {
@@ -42,21 +42,6 @@ constexpr std::array solid_pair_columns{
     Column<P>{"slip_speed", "m/s", "of the node over the ground, as the law of friction sees it",
               [](const P& r) { return r.slip; }},
 };
-
-template <int D>
-Json json_of(const statics::RollingSlope& slope) {
-  const statics::RollingForces& f = slope.forces;
-  Json j{{"force_x", f.heading}, {"force_y", f.normal}};
-  if (D == 3) j["force_lateral"] = f.lateral;
-  j["torque"] = f.torque;
-  if (D == 3) {
-    j["moment_aligning"] = f.aligning;
-    j["moment_overturning"] = f.overturning;
-  }
-  j["height"] = slope.height;
-  j["speed"] = slope.speed;
-  return j;
-}
 
 }  // namespace
 
@@ -161,45 +146,10 @@ std::vector<std::string> SteadyState<D>::notes() const {
 }
 
 template <int D>
-Json SteadyState<D>::describe() const {
-  const statics::RollingSolution& s = solution_;
-  const AnalysisCase& a = case_.analysis;
-  Json j;
-  j["force_x"] = s.forces.heading;
-  j["force_y"] = s.forces.normal;
-  if (D == 3) j["force_lateral"] = s.forces.lateral;
-  j["torque"] = torque();
-  if (D == 3) {
-    j["moment_aligning"] = s.forces.aligning;
-    j["moment_overturning"] = s.forces.overturning;
-  }
-  j["height"] = height();
-  j["speed"] = s.speed;
-  j["slip_ratio"] = slip_ratio();
-  if (D == 3) {
-    j["slip_angle"] = drive_.slip_angle;
-    j["camber"] = case_.motion.camber;
-  }
-  j["rolling_resistance"] = resistance();
-  j[D == 2 ? "stick_length" : "stick_area"] = mean_.stick;
-  j[D == 2 ? "slip_length" : "slip_area"] = mean_.slip;
-  j["pressure_max"] = mean_.pressure;
-  j["shear_max"] = mean_.shear;
-  Json& slopes = j["slopes"];
-  slopes["by_friction"] = json_of<D>(s.slopes.by_friction);
-  slopes[a.load ? "by_load" : "by_height"] = json_of<D>(s.slopes.by_height);
-  slopes[a.torque     ? "by_torque"
-         : a.traction ? "by_traction"
-                      : "by_speed"] = json_of<D>(s.slopes.by_speed);
-  if (D == 3) slopes["by_slip_angle"] = json_of<D>(s.slopes.by_slip_angle);
-  j["power"] = study::json_of(power_);
-  j["scheme_share"] = power_.scheme_share;
-  j["residual"] = s.residual;
-  j["newton_steps"] = s.effort.newton_steps;
-  j[D == 2 ? "pivots" : "sweeps"] = D == 2 ? s.effort.pivots : s.effort.sweeps;
-  j["pairs"] = window_.pairs().size();
-  j["samples_per_sector"] = window_.harmonics().body().samples;
-  return j;
+void SteadyState<D>::describe(Json& json) const {
+  add_steady({case_, solution_, mean_, power_, height(), slip_ratio(), resistance(),
+              window_.pairs().size(), D == 3},
+             json);
 }
 
 template void SteadyBody<2>::add_columns(RecordPlan&) const;
@@ -208,13 +158,13 @@ template std::string SteadyState<2>::nothing_touches() const;
 template std::string SteadyState<2>::why_it_slides() const;
 template std::string SteadyState<2>::not_solved() const;
 template std::vector<std::string> SteadyState<2>::notes() const;
-template Json SteadyState<2>::describe() const;
+template void SteadyState<2>::describe(Json&) const;
 template void SteadyBody<3>::add_columns(RecordPlan&) const;
 template void SteadyState<3>::append_row(int, const Snapshot&, std::vector<double>&) const;
 template std::string SteadyState<3>::nothing_touches() const;
 template std::string SteadyState<3>::why_it_slides() const;
 template std::string SteadyState<3>::not_solved() const;
 template std::vector<std::string> SteadyState<3>::notes() const;
-template Json SteadyState<3>::describe() const;
+template void SteadyState<3>::describe(Json&) const;
 
 }  // namespace rondo::study

@@ -94,11 +94,6 @@ void find_solid_step(const Case& c, Setup& s) {
   s.critical = m.rim ? step_with_solid_rim(m, held, damping) : held;
 }
 
-double width_of(const mesh::Mesh& mesh) {
-  const auto [left, right] = std::ranges::minmax(mesh.axial);
-  return right - left;
-}
-
 std::string range_text(const dynamics::Table& table) {
   double low = table.at(0.0), high = low;
   for (const auto& point : table.points()) {
@@ -142,11 +137,9 @@ std::vector<Vec2> solid_positions(const Setup& s) {
   return x;
 }
 
-void describe_solid(const Setup& s, Json& json) {
-  json["dimensions"] = 3;
-  json["width"] = width_of(s.mesh);
-  json["sectors"] = s.mesh.n_sectors;
-  json["camber"] = s.model.motion.camber;
+double width_of(const mesh::Mesh& mesh) {
+  const auto [left, right] = std::ranges::minmax(mesh.axial);
+  return right - left;
 }
 
 void tell_solid_figures(const Case& c, Setup& s) {

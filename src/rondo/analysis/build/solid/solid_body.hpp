@@ -2,7 +2,6 @@
 /// @file  From a case to the model of a wheel in three dimensions (docs/wheel3d.md).
 #pragma once
 #include "rondo/analysis/build/build.hpp"
-#include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
 
@@ -17,9 +16,10 @@ std::vector<Vec2> solid_positions(const Setup& s);
 /// one that is held
 void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidBody& body);
 
+/// Extent along the axle [m].
+double width_of(const mesh::Mesh& mesh);
+
 /// What `rondo check` says of it.
 void tell_solid_figures(const Case& c, Setup& s);
-/// What run.json says of it.
-void describe_solid(const Setup& s, Json& json);
 
 }  // namespace rondo::study

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/steady/steady_members.hpp"
+
+#include "rondo/analysis/base/shared_members.hpp"
+#include "rondo/analysis/steady/steady.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr Member<double> harmonics_rows[] = {
+    {"harmonics_wall_s", "number", "s", "Wall time of the harmonics of the body",
+     [](const double& seconds) -> Json { return seconds; }},
+};
+
+/// Forces, height and speed, or their derivatives.
+struct Sloped {
+  const statics::RollingForces& f;
+  double height, speed;
+  bool solid;
+};
+Json of_solid(const Sloped& s, double value) {
+  return s.solid ? Json(value) : absent();
+}
+constexpr Member<Sloped> slope_rows[] = {
+    {"force_x", "number", "", "Derivative of `force_x`",
+     [](const Sloped& s) -> Json { return s.f.heading; }},
+    {"force_y", "number", "", "Derivative of `force_y`",
+     [](const Sloped& s) -> Json { return s.f.normal; }},
+    {"force_lateral", "number", "", "Derivative of `force_lateral`, of a 3D wheel",
+     [](const Sloped& s) { return of_solid(s, s.f.lateral); }},
+    {"torque", "number", "", "Derivative of `torque`",
+     [](const Sloped& s) -> Json { return s.f.torque; }},
+    {"moment_aligning", "number", "", "Derivative of `moment_aligning`, of a 3D wheel",
+     [](const Sloped& s) { return of_solid(s, s.f.aligning); }},
+    {"moment_overturning", "number", "", "Derivative of `moment_overturning`, of a 3D wheel",
+     [](const Sloped& s) { return of_solid(s, s.f.overturning); }},
+    {"height", "number", "", "Derivative of `height`",
+     [](const Sloped& s) -> Json { return s.height; }},
+    {"speed", "number", "", "Derivative of `speed`",
+     [](const Sloped& s) -> Json { return s.speed; }},
+};
+
+Json slope_of(const SteadyFigures& k, const statics::RollingSlope& slope) {
+  return object_of(slope_rows, {slope.forces, slope.height, slope.speed, k.solid});
+}
+constexpr Member<SteadyFigures> slopes_rows[] = {
+    {"by_friction", "object", "", "By `ground.friction`",
+     [](const SteadyFigures& k) { return slope_of(k, k.s.slopes.by_friction); },
+     [] { return texts_of(slope_rows); }},
+    {"by_load", "object", "", "By the load, where that is given",
+     [](const SteadyFigures& k) {
+       return k.c.analysis.load ? slope_of(k, k.s.slopes.by_height) : absent();
+     }},
+    {"by_height", "object", "", "By the height, where that is given",
+     [](const SteadyFigures& k) {
+       return k.c.analysis.load ? absent() : slope_of(k, k.s.slopes.by_height);
+     }},
+    {"by_torque", "object", "", "By the torque, where that is given",
+     [](const SteadyFigures& k) {
+       return k.c.analysis.torque ? slope_of(k, k.s.slopes.by_speed) : absent();
+     }},
+    {"by_traction", "object", "", "By the traction, where that is given",
+     [](const SteadyFigures& k) {
+       const bool is_given = k.c.analysis.traction && !k.c.analysis.torque;
+       return is_given ? slope_of(k, k.s.slopes.by_speed) : absent();
+     }},
+    {"by_speed", "object", "", "By the speed, where that is given",
+     [](const SteadyFigures& k) {
+       const bool is_given = !k.c.analysis.traction && !k.c.analysis.torque;
+       return is_given ? slope_of(k, k.s.slopes.by_speed) : absent();
+     }},
+    {"by_slip_angle", "object", "", "By the slip angle, of a 3D wheel",
+     [](const SteadyFigures& k) {
+       return k.solid ? slope_of(k, k.s.slopes.by_slip_angle) : absent();
+     }},
+};
+
+constexpr Member<statics::RollingPower> power_rows[] = {
+    {"drive", "number", "W/m",
+     "Given by speed and spin against the forces of the ground: V F_x + s T",
+     [](const statics::RollingPower& p) -> Json { return p.drive; }},
+    {"mass", "number", "W/m", "Taken by mass damping",
+     [](const statics::RollingPower& p) -> Json { return p.mass; }},
+    {"stiffness", "number", "W/m", "Taken by stiffness damping",
+     [](const statics::RollingPower& p) -> Json { return p.stiffness; }},
+    {"friction", "number", "W/m", "Taken by friction",
+     [](const statics::RollingPower& p) -> Json { return p.friction; }},
+    {"weight", "number", "W/m", "Given by the weight along the deformation",
+     [](const statics::RollingPower& p) -> Json { return p.weight; }},
+    {"scheme", "number", "W/m",
+     "Difference between the slip of the law and the velocity of the field",
+     [](const statics::RollingPower& p) -> Json { return p.scheme; }},
+    {"residual", "number", "",
+     "drive + mass + stiffness + friction − weight − scheme, over the largest of them",
+     [](const statics::RollingPower& p) -> Json { return p.residual; }},
+};
+
+Json solid_only(const SteadyFigures& k, double value) {
+  return k.solid ? Json(value) : absent();
+}
+Json plane_only(const SteadyFigures& k, const Json& value) {
+  return k.solid ? absent() : value;
+}
+constexpr Member<SteadyFigures> figures_rows[] = {
+    {"force_x", "number", "N/m", "Force of the ground on the body, along x",
+     [](const SteadyFigures& k) -> Json { return k.s.forces.heading; }},
+    {"force_y", "number", "N/m", "Force of the ground on the body, along its normal",
+     [](const SteadyFigures& k) -> Json { return k.s.forces.normal; }},
+    {"force_lateral", "number", "N/m", "Force of the ground on a 3D wheel, to the right",
+     [](const SteadyFigures& k) { return solid_only(k, k.s.forces.lateral); }},
+    {"torque", "number", "N·m/m",
+     "Torque on the rim, clockwise, that maintains the spin: > 0 drives towards +x",
+     [](const SteadyFigures& k) -> Json { return k.s.forces.torque; }},
+    {"moment_aligning", "number", "N·m/m",
+     "Moment of the ground on a 3D wheel about the normal of the ground through the center",
+     [](const SteadyFigures& k) { return solid_only(k, k.s.forces.aligning); }},
+    {"moment_overturning", "number", "N·m/m",
+     "Moment of the ground on a 3D wheel about the heading, in the ground below the center",
+     [](const SteadyFigures& k) { return solid_only(k, k.s.forces.overturning); }},
+    {"height", "number", "m", "Height of the center, given or found",
+     [](const SteadyFigures& k) -> Json { return k.height; }},
+    {"speed", "number", "m/s", "Speed of the center, given or found",
+     [](const SteadyFigures& k) -> Json { return k.s.speed; }},
+    {"slip_ratio", "number", "", "Slip ratio, as in `history.csv`",
+     [](const SteadyFigures& k) -> Json { return k.slip_ratio; }},
+    {"slip_angle", "number", "rad", "Slip angle of a 3D wheel",
+     [](const SteadyFigures& k) { return solid_only(k, k.c.motion.slip_angle.at(0.0)); }},
+    {"camber", "number", "rad", "Camber of a 3D wheel",
+     [](const SteadyFigures& k) { return solid_only(k, k.c.motion.camber); }},
+    {"rolling_resistance", "number", "N/m",
+     "Rolling resistance: power lost over speed, (ω `torque` − V `force_x`) / |V|: −`force_x` if "
+     "the torque is 0 and V "
+     "> 0; null at speed 0",
+     [](const SteadyFigures& k) -> Json { return k.resistance; }},
+    {"stick_length", "number", "m", "Sum of the deformed boundary lengths of the nodes that stick",
+     [](const SteadyFigures& k) { return plane_only(k, k.mean.stick); }},
+    {"stick_area", "number", "m2",
+     "Sum of the deformed areas of the nodes of a 3D wheel that stick",
+     [](const SteadyFigures& k) { return solid_only(k, k.mean.stick); }},
+    {"slip_length", "number", "m", "Sum of the deformed boundary lengths of the nodes that slip",
+     [](const SteadyFigures& k) { return plane_only(k, k.mean.slip); }},
+    {"slip_area", "number", "m2", "Sum of the deformed areas of the nodes of a 3D wheel that slip",
+     [](const SteadyFigures& k) { return solid_only(k, k.mean.slip); }},
+    {"pressure_max", "number", "Pa", "Largest pressure of all samples, over the deformed boundary",
+     [](const SteadyFigures& k) -> Json { return k.mean.pressure; }},
+    {"shear_max", "number", "Pa", "Largest shear of all samples, over the deformed boundary",
+     [](const SteadyFigures& k) -> Json { return k.mean.shear; }},
+    {"slopes", "object", "",
+     "Derivatives with respect to what is given, in SI units, each with the same members",
+     [](const SteadyFigures& k) { return object_of(slopes_rows, k); },
+     [] { return texts_of(slopes_rows); }},
+    {"power", "object", "", "Balance of powers",
+     [](const SteadyFigures& k) { return object_of(power_rows, k.power); },
+     [] { return texts_of(power_rows); }},
+    {"scheme_share", "number", "",
+     "|`scheme`| of `power` over the largest of `drive`, damping (`mass` + `stiffness`) and "
+     "`friction`; 0 if it is round-off",
+     [](const SteadyFigures& k) -> Json { return k.power.scheme_share; }},
+    {"residual", "number", "", "Residual of the contact law, over the largest force",
+     [](const SteadyFigures& k) -> Json { return k.s.residual; }},
+    {"newton_steps", "integer", "", "Newton steps of the solver",
+     [](const SteadyFigures& k) -> Json { return k.s.effort.newton_steps; }},
+    {"pivots", "integer", "", "Pivots of the solver",
+     [](const SteadyFigures& k) { return plane_only(k, k.s.effort.pivots); }},
+    {"sweeps", "integer", "", "Sweeps of the solver of a 3D wheel",
+     [](const SteadyFigures& k) { return k.solid ? Json(k.s.effort.sweeps) : absent(); }},
+    {"pairs", "integer", "", "Pairs of a contact node and a sample that were considered",
+     [](const SteadyFigures& k) -> Json { return k.pairs; }},
+    {"samples_per_sector", "integer", "", "Samples of the pass of a sector",
+     [](const SteadyFigures& k) -> Json { return k.c.analysis.samples_per_sector; }},
+};
+constexpr Member<SteadyFigures> state_rows[] = {
+    {"steady", "object", "", "Means over the pass of a sector",
+     [](const SteadyFigures& k) { return object_of(figures_rows, k); },
+     [] { return texts_of(figures_rows); }},
+};
+
+}  // namespace
+
+void describe_steady(double harmonics_s, double solve_s, Json& json) {
+  add_members(harmonics_rows, harmonics_s, json);
+  add_solve_wall(solve_s, json);
+}
+
+void add_steady(const SteadyFigures& figures, Json& json) {
+  add_members(state_rows, figures, json);
+}
+
+std::vector<MemberText> steady_members() {
+  return joined({texts_of(harmonics_rows), texts_of(state_rows)});
+}
+
+}  // namespace rondo::study
