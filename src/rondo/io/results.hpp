@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  results.h5, fields.xdmf and fields.vtkhdf of a run, readable at any moment of it
 /// (docs/results.md).
-/// Every dataset is created at full size with its storage reserved. The file's
-/// metadata is then flushed once and never changes during the run, so that a
-/// run killed at any moment leaves a file that can be opened. /frame/time is
-/// NaN for snapshots that were not reached. close() cuts the datasets to the
-/// snapshots written. fields.xdmf and fields.vtkhdf list only these.
+///
+/// Every dataset is created at full size with its storage reserved. The file's metadata is then
+/// flushed once and never changes during the run, so that a run killed at any moment leaves a file
+/// that opens. /frame/time is NaN for snapshots that were not reached. close() cuts the datasets to
+/// the snapshots written. fields.xdmf and fields.vtkhdf list only these.
 #pragma once
 #include <array>
 #include <cstddef>

@@ -25,14 +25,14 @@ struct ReadMesh {
   std::vector<std::string> warnings;  ///< for the user, one line each
 };
 
-/// Nodes are numbered by their tags in the file, cells by surface, type and tag.
-/// `boundary` holds the open lines of the contact curve first, then the closed ones,
-/// each with the body on its left. Clamped nodes are left out, and contact_edges join
-/// the nodes that remain. `tributary` includes every edge of the curve. `curves` has
-/// all physical curves of the file. An edge with cells on both sides keeps its sense
-/// in the file; only curves not named by `contact` or `curves` may have such edges. A
-/// node or an edge may be in several curves, a cell in one surface only.
-/// program that reads it cannot be run.
+/// Nodes are numbered by their tags in the file, cells by surface, type and tag. `boundary` holds
+/// the open lines of the contact curve first, then the closed ones, each with the body on its left.
+/// Clamped nodes are left out, and contact_edges join the nodes that remain. `tributary` includes
+/// every edge of the curve. `curves` has all physical curves of the file. An edge with cells on
+/// both sides keeps its sense in the file; only curves not named by `contact` or `curves` may have
+/// such edges. A node or an edge may be in several curves, a cell in one surface only. Throws
+/// InputError with all faults of a kind, FileError if the file cannot be opened or the program that
+/// reads it cannot be run.
 ReadMesh read_gmsh(const MeshRequest& request);
 
 }  // namespace rondo::mesh
