@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# with_dispatch.sh LEVEL PROGRAM: PROGRAM with the loops of an instruction set. Exits 77 where the
+# with_dispatch.sh LEVEL PROGRAM ARGUMENT...: PROGRAM with the loops of an instruction set. Exits 77 where the
 # processor does not have it.
 set -euo pipefail
 case $1 in
@@ -11,4 +11,4 @@ esac
 for flag in $needed; do
   grep -qw "$flag" /proc/cpuinfo || { echo "skipped: this processor has no $flag"; exit 77; }
 done
-RONDO_DISPATCH=$1 exec "$2"
+RONDO_DISPATCH=$1 exec "${@:2}"
