@@ -11,12 +11,12 @@ struct Checked {
 
 using Line = std::pair<std::string, std::string>;
 
-constexpr MemberRow<Line> line_members[] = {
+constexpr JsonMember<Line> line_members[] = {
     {"name", "string", "", "what is told", [](const Line& l) -> Json { return l.first; }},
     {"text", "string", "", "its value, in words", [](const Line& l) -> Json { return l.second; }},
 };
 
-constexpr MemberRow<Checked> check_members[] = {
+constexpr JsonMember<Checked> check_members[] = {
     {"title", "string", "", "of the case", [](const Checked& k) -> Json { return k.c.title; }},
     {"analysis", "string", "", "analysis.kind",
      [](const Checked& k) -> Json { return study::rules_of(k.c.analysis.kind).name; }},

@@ -5,7 +5,7 @@
 namespace rondo::app {
 namespace {
 
-constexpr MemberRow<FmuReport> fmu_members[] = {
+constexpr JsonMember<FmuReport> fmu_members[] = {
     {"fmu", "string", "", "file of the FMU",
      [](const FmuReport& r) -> Json { return r.file.string(); }},
     {"fmu_bytes", "integer", "B", "its size", [](const FmuReport& r) -> Json { return r.bytes; }},

@@ -10,7 +10,7 @@ using study::ModeLine;
 using study::ModesReport;
 using study::SpinSummary;
 
-constexpr MemberRow<ModeLine> mode_members[] = {
+constexpr JsonMember<ModeLine> mode_members[] = {
     {"spin", "number", "rad/s", "angular velocity of the body",
      [](const ModeLine& m) -> Json { return m.angular_velocity; }},
     {"omega", "number", "rad/s", "of the mode, in the turning frame",
@@ -24,7 +24,7 @@ constexpr MemberRow<ModeLine> mode_members[] = {
     {"residual", "number", "", "of the mode", [](const ModeLine& m) -> Json { return m.residual; }},
 };
 
-constexpr MemberRow<SpinSummary> spin_members[] = {
+constexpr JsonMember<SpinSummary> spin_members[] = {
     {"spin", "number", "rad/s", "angular velocity of the body",
      [](const SpinSummary& s) -> Json { return s.angular_velocity; }},
     {"modes", "integer", "", "found", [](const SpinSummary& s) -> Json { return s.modes; }},
@@ -41,7 +41,7 @@ struct Critical {
   double spin, rim_speed;
 };
 
-constexpr MemberRow<Critical> critical_members[] = {
+constexpr JsonMember<Critical> critical_members[] = {
     {"diameters", "integer", "", "of the wave that stands still",
      [](const Critical& s) -> Json { return s.diameters; }},
     {"spin", "number", "rad/s", "at which it does",
@@ -56,7 +56,7 @@ Json critical_of(const ModesReport& r) {
   return objects_of(critical_members, list);
 }
 
-constexpr MemberRow<ModesReport> modes_members[] = {
+constexpr JsonMember<ModesReport> modes_members[] = {
     {"directory", "string", "", "where the files are",
      [](const ModesReport& r) -> Json { return r.directory.string(); }},
     {"nodes", "integer", "", "of the mesh", [](const ModesReport& r) -> Json { return r.nodes; }},

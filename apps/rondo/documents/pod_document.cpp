@@ -8,7 +8,7 @@ using study::PodCount;
 using study::PodReport;
 using study::PodRun;
 
-constexpr MemberRow<PodCount> count_members[] = {
+constexpr JsonMember<PodCount> count_members[] = {
     {"discarded", "number", "", "share of the energy",
      [](const PodCount& n) -> Json { return n.discarded; }},
     {"modes", "integer or null", "", "that leave at most that much; null: more than were found",
@@ -21,7 +21,7 @@ Json errors_of(const PodRun& run) {
   return errors;
 }
 
-constexpr MemberRow<PodRun> run_members[] = {
+constexpr JsonMember<PodRun> run_members[] = {
     {"directory", "string", "", "results of the run",
      [](const PodRun& r) -> Json { return r.directory.string(); }},
     {"title", "string", "", "of its case", [](const PodRun& r) -> Json { return r.title; }},
@@ -43,7 +43,7 @@ struct Decomposed {
   const PodReport& r;
 };
 
-constexpr MemberRow<Decomposed> pod_members[] = {
+constexpr JsonMember<Decomposed> pod_members[] = {
     {"directory", "string", "", "where the files are",
      [](const Decomposed& k) -> Json { return k.r.directory.string(); }},
     {"field", "string", "", "as asked for", [](const Decomposed& k) -> Json { return k.q.field; }},

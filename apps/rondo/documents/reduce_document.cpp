@@ -17,7 +17,7 @@ struct LeftOut {
   ForceErrors error;
 };
 
-constexpr MemberRow<LeftOut> left_out_members[] = {
+constexpr JsonMember<LeftOut> left_out_members[] = {
     {"run", "string", "", "left out and predicted from the others",
      [](const LeftOut& l) -> Json { return l.run; }},
     {"error_x", "number", "", "of the mean of force_x, over that of force_y",
@@ -44,7 +44,7 @@ Json estimate(const Reduced& k, double ForceErrors::*part) {
   return k.r.estimate.errors.empty() ? Json() : Json(k.r.estimate.estimate().*part);
 }
 
-constexpr MemberRow<ReducePart> part_members[] = {
+constexpr JsonMember<ReducePart> part_members[] = {
     {"field", "string", "", "that the modes are of",
      [](const ReducePart& p) -> Json { return p.field; }},
     {"snapshots", "integer", "", "taken", [](const ReducePart& p) -> Json { return p.snapshots; }},
@@ -57,7 +57,7 @@ std::vector<study::MemberText> part_texts() {
   return texts_of(part_members);
 }
 
-constexpr MemberRow<Reduced> reduce_members[] = {
+constexpr JsonMember<Reduced> reduce_members[] = {
     {"model", "string", "", "file of the model",
      [](const Reduced& k) -> Json { return k.q.output.string(); }},
     {"model_bytes", "integer", "B", "its size",

@@ -19,7 +19,7 @@ Json read_json(const std::filesystem::path& file) {
   return json.is_discarded() ? Json() : json;
 }
 
-constexpr MemberRow<Ran> ran_members[] = {
+constexpr JsonMember<Ran> ran_members[] = {
     {"directory", "string", "", "where the results are",
      [](const Ran& k) -> Json { return k.directory.string(); }},
     {"reached", "string", "", "how far the run came, in words",

@@ -10,7 +10,7 @@ struct Swept {
   const std::vector<std::size_t>& unfinished;
 };
 
-constexpr MemberRow<Swept> sweep_members[] = {
+constexpr JsonMember<Swept> sweep_members[] = {
     {"directory", "string", "", "of results.csv, sweep.h5 and sweep.json",
      [](const Swept& k) -> Json { return k.directory.string(); }},
     {"runs", "integer", "", "of the study, or of the shard",
@@ -41,7 +41,7 @@ struct Planned {
   const study::PlannedMember& member;
 };
 
-constexpr MemberRow<Planned> planned_members[] = {
+constexpr JsonMember<Planned> planned_members[] = {
     {"run", "integer", "", "from 1", [](const Planned& p) -> Json { return p.number; }},
     {"settings", "array of string", "", "KEY=VALUE over the base case",
      [](const Planned& p) -> Json { return study::settings_of(p.study, p.member.member); }},
@@ -79,7 +79,7 @@ Json planned_runs(const Plan& plan) {
   return array;
 }
 
-constexpr MemberRow<Plan> plan_members[] = {
+constexpr JsonMember<Plan> plan_members[] = {
     {"workers", "integer", "", "runs at once", [](const Plan& p) -> Json { return p.workers; }},
     {"planned", "array", "", "the runs, of which none was run", planned_runs,
      [] { return texts_of(planned_members); }},

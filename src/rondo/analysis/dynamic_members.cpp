@@ -13,7 +13,7 @@ namespace {
 using dynamics::Model;
 using dynamics::RimBody;
 
-constexpr MemberRow<RimBody> rim_members[] = {
+constexpr JsonMember<RimBody> rim_members[] = {
     {"free", "array of string", "",
      "Motions that are free: \"speed\", \"height\", \"angular_velocity\"",
      [](const RimBody& rim) {
@@ -29,7 +29,7 @@ constexpr MemberRow<RimBody> rim_members[] = {
      [](const RimBody& rim) -> Json { return rim.inertia; }},
 };
 
-constexpr MemberRow<Model> hati_members[] = {
+constexpr JsonMember<Model> hati_members[] = {
     {"ratio", "integer", "", "Fine steps in a coarse one",
      [](const Model& m) -> Json { return m.subdomains->ratio; }},
     {"fine_step", "number", "s", "Step of the fine part",
@@ -45,7 +45,7 @@ struct Built {
   const Setup& s;
 };
 
-constexpr MemberRow<Built> file_of_mesh_members[] = {
+constexpr JsonMember<Built> file_of_mesh_members[] = {
     {"mesh_file", "string", "", "Only with `[mesh]` or `[section]`: the file that was read",
      [](const Built& b) {
        const MeshCase* const mesh = mesh_file_of(b.c);
@@ -53,7 +53,7 @@ constexpr MemberRow<Built> file_of_mesh_members[] = {
      }},
 };
 
-constexpr MemberRow<Built> built_members[] = {
+constexpr JsonMember<Built> built_members[] = {
     {"bodies", "integer", "", "Parts of the mesh that no cell connects",
      [](const Built& b) -> Json { return count_bodies(b.s.model); }},
     {"free_bodies", "integer", "", "Bodies that nothing holds",
@@ -100,7 +100,7 @@ constexpr MemberRow<Built> built_members[] = {
      [] { return texts_of(rim_members); }},
 };
 
-constexpr MemberRow<RunReport> time_members[] = {
+constexpr JsonMember<RunReport> time_members[] = {
     {"end_time", "number", "s", "Time reached",
      [](const RunReport& r) -> Json { return r.end_time; }},
     {"ns_per_dof_step", "number", "ns", "`loop_wall_s` over degrees of freedom × steps",
@@ -108,7 +108,7 @@ constexpr MemberRow<RunReport> time_members[] = {
 };
 
 using E = DynamicEnd;
-constexpr MemberRow<E> contact_members[] = {
+constexpr JsonMember<E> contact_members[] = {
     {"steps_in_contact", "integer", "", "Steps with contact",
      [](const E& e) -> Json { return e.contact.contact_steps; }},
     {"nodes_max", "integer", "", "Most nodes in contact at once",
@@ -139,7 +139,7 @@ constexpr MemberRow<E> contact_members[] = {
     {"problems_kept", "integer", "", "Files in `contact-problems/`",
      [](const E& e) -> Json { return e.problems_kept; }},
 };
-constexpr MemberRow<E> ended_members[] = {
+constexpr JsonMember<E> ended_members[] = {
     {"contact", "object", "", "Figures of the contact",
      [](const E& e) { return object_of(contact_members, e); },
      [] { return texts_of(contact_members); }},

@@ -11,7 +11,7 @@
 namespace rondo::study {
 namespace {
 
-constexpr MemberRow<double> rubber_rows[] = {
+constexpr JsonMember<double> rubber_rows[] = {
     {"integration_relative", "number", "",
      "Only with rubber: magnitude of `integration` of `history.csv` at the last step; a warning "
      "above 0.01",

@@ -27,12 +27,12 @@ bool is_complete(const Checkpoint& k, const std::filesystem::path& directory) {
   }
 }
 
-constexpr MemberRow<bool> resumable_members[] = {
+constexpr JsonMember<bool> resumable_members[] = {
     {"resumable", "boolean", "", "The run writes checkpoints",
      [](const bool& resumable) -> Json { return resumable; }},
 };
 
-constexpr MemberRow<ColumnLabel> column_members[] = {
+constexpr JsonMember<ColumnLabel> column_members[] = {
     {"name", "string", "", "Name of the column",
      [](const ColumnLabel& column) -> Json { return column.name; }},
     {"unit", "string", "", "Its unit; \"1\": none",
@@ -43,7 +43,7 @@ struct Begun {
   const std::vector<ColumnLabel>& columns;
   Json warnings, resumed_at;  ///< absent(): the run was not resumed
 };
-constexpr MemberRow<Begun> begun_run_members[] = {
+constexpr JsonMember<Begun> begun_run_members[] = {
     {"columns", "array", "", "Columns of `history.csv`, in order",
      [](const Begun& b) { return objects_of(column_members, b.columns); },
      [] { return texts_of(column_members); }},
@@ -55,7 +55,7 @@ constexpr MemberRow<Begun> begun_run_members[] = {
      [](const Begun& b) { return b.resumed_at; }},
 };
 
-constexpr MemberRow<KeptFiles> file_members[] = {
+constexpr JsonMember<KeptFiles> file_members[] = {
     {"files", "object", "",
      "For `--resume`, contents of the files at the end: for each table `bytes` and the hash "
      "`xxh3-128`; for `results.h5` the number of `snapshots`, and the hash of each dataset that "
@@ -63,7 +63,7 @@ constexpr MemberRow<KeptFiles> file_members[] = {
      [](const KeptFiles& files) { return as_json(files); }},
 };
 
-constexpr MemberRow<OutputCost> output_members[] = {
+constexpr JsonMember<OutputCost> output_members[] = {
     {"wait_wall_s", "number", "s",
      "Wall time of the loop for copying data and waiting for a free buffer",
      [](const OutputCost& o) -> Json { return o.wait_wall_s; }},
@@ -76,7 +76,7 @@ constexpr MemberRow<OutputCost> output_members[] = {
      [](const OutputCost& o) -> Json { return o.queue_full; }},
 };
 
-constexpr MemberRow<Loop> loop_members[] = {
+constexpr JsonMember<Loop> loop_members[] = {
     {"loop_wall_s", "number", "s",
      "Wall time of the steps or increments, including waits for output; in a resumed run with the "
      "time up to the checkpoint",
@@ -95,7 +95,7 @@ constexpr MemberRow<Loop> loop_members[] = {
      [] { return texts_of(output_members); }},
 };
 
-constexpr MemberRow<double> total_members[] = {
+constexpr JsonMember<double> total_members[] = {
     {"total_wall_s", "number", "s", "Wall time from reading the case to the last result written",
      [](const double& seconds) -> Json { return seconds; }},
 };

@@ -60,7 +60,7 @@ void copy_mesh(const Case& c, const std::filesystem::path& directory) {
   io::write_file(directory / mesh_copy, text);
 }
 
-constexpr MemberRow<BuildRecord> record_members[] = {
+constexpr JsonMember<BuildRecord> record_members[] = {
     {"commit", "string", "", "Commit of the sources; \"unknown\" for a copy without git",
      [](const BuildRecord& r) -> Json { return r.commit; }},
     {"modified", "boolean or null", "", "Files differed from the commit; null: unknown",
@@ -78,7 +78,7 @@ constexpr MemberRow<BuildRecord> record_members[] = {
 };
 
 struct Program {};
-constexpr MemberRow<Program> program_members[] = {
+constexpr JsonMember<Program> program_members[] = {
     {"version", "string", "", "Version of the program",
      [](const Program&) -> Json { return version; }},
     {"build", "string", "", "Kind of build", [](const Program&) -> Json { return build_options; }},
@@ -100,7 +100,7 @@ constexpr MemberRow<Program> program_members[] = {
 struct Ending {
   std::string_view status, message;
 };
-constexpr MemberRow<Ending> status_members[] = {
+constexpr JsonMember<Ending> status_members[] = {
     {"status", "string", "",
      "\"running\", \"done\", \"interrupted\" or \"failed\"; \"running\" without a process: the run "
      "was killed",
@@ -109,10 +109,10 @@ constexpr MemberRow<Ending> status_members[] = {
      [](const Ending& e) { return e.message.empty() ? absent() : Json(e.message); }},
 };
 
-constexpr MemberRow<Case> title_members[] = {
+constexpr JsonMember<Case> title_members[] = {
     {"title", "string", "", "`title` of the case", [](const Case& c) -> Json { return c.title; }},
 };
-constexpr MemberRow<std::string_view> begun_members[] = {
+constexpr JsonMember<std::string_view> begun_members[] = {
     {"process", "integer", "", "Number of the process",
      [](const std::string_view&) -> Json { return ::getpid(); }},
     {"analysis", "string", "", "\"dynamic\", \"crush\", \"steady-rolling\" or \"modes\"",

@@ -29,7 +29,7 @@ struct Sized {
   RegionFigures figures;
   bool solid;
 };
-constexpr MemberRow<Sized> whole_rows[] = {
+constexpr JsonMember<Sized> whole_rows[] = {
     {"mass", "number", "kg/m", "Mass of the body",
      [](const Sized& s) -> Json { return s.figures.mass; }},
     {"area", "number", "m2", "Area of the undeformed body; not of a 3D wheel",
@@ -37,7 +37,7 @@ constexpr MemberRow<Sized> whole_rows[] = {
     {"volume", "number", "m3", "Volume of an undeformed 3D wheel",
      [](const Sized& s) { return s.solid ? Json(s.figures.size) : absent(); }},
 };
-constexpr MemberRow<Sized> region_rows[] = {
+constexpr JsonMember<Sized> region_rows[] = {
     {"name", "string", "", "Name of the region; \"\": cells in none",
      [](const Sized& s) -> Json { return s.figures.name; }},
     {"elements", "integer", "", "Number of its elements",
@@ -47,7 +47,7 @@ constexpr MemberRow<Sized> region_rows[] = {
     {"mass", "number", "kg/m", "Its mass", whole_rows[0].value},
 };
 
-constexpr MemberRow<std::vector<Sized>> list_rows[] = {
+constexpr JsonMember<std::vector<Sized>> list_rows[] = {
     {"regions", "array", "", "Mass and size of each physical surface or region of the case",
      [](const std::vector<Sized>& all) { return objects_of(region_rows, all); },
      [] { return texts_of(region_rows); }},

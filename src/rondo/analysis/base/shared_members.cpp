@@ -7,7 +7,7 @@ namespace {
 struct Size {
   std::size_t nodes, dofs;
 };
-constexpr MemberRow<Size> size_members[] = {
+constexpr JsonMember<Size> size_members[] = {
     {"nodes", "integer", "", "Nodes of the mesh", [](const Size& s) -> Json { return s.nodes; }},
     {"dofs", "integer", "", "Free degrees of freedom",
      [](const Size& s) -> Json { return s.dofs; }},
@@ -18,7 +18,7 @@ struct Wheel {
   int sectors;
   double camber;
 };
-constexpr MemberRow<Wheel> wheel_members[] = {
+constexpr JsonMember<Wheel> wheel_members[] = {
     {"dimensions", "integer", "", "3; only for a [3D wheel](#wheels-in-three-dimensions)",
      [](const Wheel&) -> Json { return 3; }},
     {"width", "number", "m", "Extent of a 3D wheel along the axle; not in steady rolling",
@@ -29,12 +29,12 @@ constexpr MemberRow<Wheel> wheel_members[] = {
      [](const Wheel& w) -> Json { return w.camber; }},
 };
 
-constexpr MemberRow<RunReport> steps_members[] = {
+constexpr JsonMember<RunReport> steps_members[] = {
     {"steps_done", "integer", "", "Steps, increments or samples of a sector that were done",
      [](const RunReport& r) -> Json { return r.steps; }},
 };
 
-constexpr MemberRow<RunReport> contact_residual_members[] = {
+constexpr JsonMember<RunReport> contact_residual_members[] = {
     {"contact_residual_max", "number", "",
      "Largest residual of the contact law, computed independently of the solver, over the largest "
      "|w_free| so far; in a crush and in steady rolling over the largest force",
@@ -45,7 +45,7 @@ struct Balanced {
   const RunReport& r;
   std::optional<double> exchanged;
 };
-constexpr MemberRow<Balanced> energy_members[] = {
+constexpr JsonMember<Balanced> energy_members[] = {
     {"energy_residual_relative", "number", "",
      "Largest imbalance of the energy balance (ledger) over the energy exchanged so far; in steady "
      "rolling of the balance of powers, over the largest of them",
@@ -58,13 +58,13 @@ constexpr MemberRow<Balanced> energy_members[] = {
      [](const Balanced& b) { return b.exchanged ? Json(*b.exchanged) : absent(); }},
 };
 
-constexpr MemberRow<RunReport> penetration_members[] = {
+constexpr JsonMember<RunReport> penetration_members[] = {
     {"penetration_max_m", "number", "m",
      "Largest depth of a contact node in the ground or in a body",
      [](const RunReport& r) -> Json { return r.penetration_max_m; }},
 };
 
-constexpr MemberRow<double> solve_members[] = {
+constexpr JsonMember<double> solve_members[] = {
     {"solve_wall_s", "number", "s",
      "Wall time of the solver: of steady rolling, or of the iterations of LATIN and of forming "
      "fields",

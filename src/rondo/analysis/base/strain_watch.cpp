@@ -16,7 +16,7 @@ struct Strained {
   const fem::LargestDeformation& largest;
   std::vector<double> strain_place, jacobian_place;
 };
-constexpr MemberRow<Strained> strain_rows[] = {
+constexpr JsonMember<Strained> strain_rows[] = {
     {"strain_max", "number", "",
      "Largest |principal strain| of the small-strain law, at the centers of the elements, in the "
      "frame of the body. Evaluated every 250 steps, at snapshots at least 100 steps apart, at the "

@@ -79,7 +79,7 @@ struct Planned {
   const CrushPath& path;
   double prepare_s;
 };
-constexpr MemberRow<Planned> planned_rows[] = {
+constexpr JsonMember<Planned> planned_rows[] = {
     {"depth", "number", "m", "Depth at the end",
      [](const Planned& p) -> Json { return p.path.depth(p.path.n_increments()); }},
     {"depth_max", "number", "m", "Largest depth on the way",
@@ -94,11 +94,11 @@ constexpr MemberRow<Planned> planned_rows[] = {
     {"factor_wall_s", "number", "s", "Wall time to factorise and condense the stiffness",
      [](const Planned& p) -> Json { return p.prepare_s; }},
 };
-constexpr MemberRow<int> increments_rows[] = {
+constexpr JsonMember<int> increments_rows[] = {
     {"increments_done", "integer", "", "Increments solved, of both; their results are kept",
      [](const int& n) -> Json { return n; }},
 };
-constexpr MemberRow<double> equilibrium_rows[] = {
+constexpr JsonMember<double> equilibrium_rows[] = {
     {"equilibrium_residual_max", "number", "", "Largest |K u − Hᵀ r| over |Hᵀ r|",
      [](const double& residual) -> Json { return residual; }},
 };

@@ -10,7 +10,7 @@
 namespace rondo::study {
 namespace {
 
-constexpr MemberRow<std::size_t> condensed_rows[] = {
+constexpr JsonMember<std::size_t> condensed_rows[] = {
     {"candidates_condensed", "integer", "",
      "Contact nodes that the stiffness was condensed on at the end",
      [](const std::size_t& n) -> Json { return n; }},
@@ -19,7 +19,7 @@ constexpr MemberRow<std::size_t> condensed_rows[] = {
 struct Swept {
   int sweeps, pivoted;
 };
-constexpr MemberRow<Swept> sweep_rows[] = {
+constexpr JsonMember<Swept> sweep_rows[] = {
     {"sweeps_max", "integer", "", "Most sweeps in an increment",
      [](const Swept& s) -> Json { return s.sweeps; }},
     {"pivoted_increments", "integer", "", "Increments solved by Lemke's pivoting instead of sweeps",

@@ -40,7 +40,7 @@ struct LatinBegin {
   double direction;  ///< [N/m²]
   int fields;
 };
-constexpr MemberRow<LatinBegin> latin_rows[] = {
+constexpr JsonMember<LatinBegin> latin_rows[] = {
     {"solver", "string", "", "\"latin\" or \"latin-pgd\"",
      [](const LatinBegin& b) -> Json {
        return b.c.analysis.solver == CrushMethod::latin_pgd ? "latin-pgd" : "latin";
@@ -58,7 +58,7 @@ constexpr MemberRow<LatinBegin> latin_rows[] = {
      [](const LatinBegin& b) { return b.options.modes_from.empty() ? absent() : Json(b.fields); }},
 };
 
-constexpr MemberRow<statics::LatinReport> latin_end_rows[] = {
+constexpr JsonMember<statics::LatinReport> latin_end_rows[] = {
     {"iterations", "integer", "", "Number of LATIN iterations",
      [](const statics::LatinReport& e) -> Json { return e.iterations; }},
     {"indicator", "number", "", "Indicator at the end, of the solution before the last cut",
@@ -66,7 +66,7 @@ constexpr MemberRow<statics::LatinReport> latin_end_rows[] = {
     {"residual", "number", "", "Residual at the end, of the solution before the last cut",
      [](const statics::LatinReport& e) -> Json { return e.residual; }},
 };
-constexpr MemberRow<std::size_t> solves_rows[] = {
+constexpr JsonMember<std::size_t> solves_rows[] = {
     {"condensation_solves", "integer", "",
      "Solves with the stiffness of the body for the compliance: two for each contact node "
      "condensed",
@@ -78,7 +78,7 @@ struct PgdEnd {
   const LatinOutcome* outcome;  ///< null: not converged
   double residual;
 };
-constexpr MemberRow<PgdEnd> pgd_rows[] = {
+constexpr JsonMember<PgdEnd> pgd_rows[] = {
     {"modes", "integer", "",
      "`\"latin-pgd\"` only: modes of the solution written, after the last cut",
      [](const PgdEnd& e) -> Json { return e.outcome ? e.outcome->modes() : e.pgd.modes(); }},

@@ -40,11 +40,11 @@ Json summary_of(const SpinSummary& s) {
   return j;
 }
 
-constexpr MemberRow<std::size_t> spins_rows[] = {
+constexpr JsonMember<std::size_t> spins_rows[] = {
     {"spins", "integer", "", "Spins that were asked for, those of a sweep included",
      [](const std::size_t& n) -> Json { return n; }},
 };
-constexpr MemberRow<ModesReport> modes_end_rows[] = {
+constexpr JsonMember<ModesReport> modes_end_rows[] = {
     {"spins_done", "integer", "", "Spins whose modes were found",
      [](const ModesReport& r) -> Json { return r.spins.size() + r.sweep.size(); }},
     {"residual_max", "number", "", "Largest residual of a mode",

@@ -52,7 +52,7 @@ Json known(double error) {
   return std::isnan(error) ? Json() : Json(error);
 }
 
-constexpr MemberRow<ForceErrors> estimate_rows[] = {
+constexpr JsonMember<ForceErrors> estimate_rows[] = {
     {"force_x", "number", "", "Error of the mean F_x, over the mean F_y",
      [](const ForceErrors& e) -> Json { return e.x; }},
     {"force_y", "number", "", "Error of the mean F_y, over itself",
@@ -68,7 +68,7 @@ struct Reduced {
   const ReducedRun& run;
   const RunOptions& options;
 };
-constexpr MemberRow<Reduced> reduced_rows[] = {
+constexpr JsonMember<Reduced> reduced_rows[] = {
     {"reduced_model", "string", "", "File of the model",
      [](const Reduced& k) -> Json { return as_utf8(k.options.reduced.string()); }},
     {"reduced_modes", "integer", "", "Number of modes",
@@ -112,7 +112,7 @@ struct ReducedEnd {
   const rom::StepFigures& f;
   double time;  ///< simulated [s]
 };
-constexpr MemberRow<ReducedEnd> figure_rows[] = {
+constexpr JsonMember<ReducedEnd> figure_rows[] = {
     {"matrices_factored", "integer", "", "How often a change of spin required new matrices",
      [](const ReducedEnd& e) -> Json { return e.f.factored; }},
     {"factor_wall_s", "number", "s", "Wall time of the changes of matrices",
@@ -145,7 +145,7 @@ constexpr MemberRow<ReducedEnd> figure_rows[] = {
      "Steps whose contact missed the tolerance, or whose brake no try held",
      [](const ReducedEnd& e) -> Json { return e.f.not_converged; }},
 };
-constexpr MemberRow<ReducedEnd> reduced_end_rows[] = {
+constexpr JsonMember<ReducedEnd> reduced_end_rows[] = {
     {"reduced", "object", "", "Effort of the reduced steps",
      [](const ReducedEnd& e) { return object_of(figure_rows, e); },
      [] { return texts_of(figure_rows); }},

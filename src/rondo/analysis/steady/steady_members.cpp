@@ -7,7 +7,7 @@
 namespace rondo::study {
 namespace {
 
-constexpr MemberRow<double> harmonics_rows[] = {
+constexpr JsonMember<double> harmonics_rows[] = {
     {"harmonics_wall_s", "number", "s", "Wall time of the harmonics of the body",
      [](const double& seconds) -> Json { return seconds; }},
 };
@@ -21,7 +21,7 @@ struct Sloped {
 Json of_solid(const Sloped& s, double value) {
   return s.solid ? Json(value) : absent();
 }
-constexpr MemberRow<Sloped> slope_rows[] = {
+constexpr JsonMember<Sloped> slope_rows[] = {
     {"force_x", "number", "", "Derivative of `force_x`",
      [](const Sloped& s) -> Json { return s.f.heading; }},
     {"force_y", "number", "", "Derivative of `force_y`",
@@ -43,7 +43,7 @@ constexpr MemberRow<Sloped> slope_rows[] = {
 Json slope_of(const SteadyFigures& k, const statics::RollingSlope& slope) {
   return object_of(slope_rows, {slope.forces, slope.height, slope.speed, k.solid});
 }
-constexpr MemberRow<SteadyFigures> slopes_rows[] = {
+constexpr JsonMember<SteadyFigures> slopes_rows[] = {
     {"by_friction", "object", "", "By `ground.friction`",
      [](const SteadyFigures& k) { return slope_of(k, k.s.slopes.by_friction); },
      [] { return texts_of(slope_rows); }},
@@ -75,7 +75,7 @@ constexpr MemberRow<SteadyFigures> slopes_rows[] = {
      }},
 };
 
-constexpr MemberRow<statics::RollingPower> power_rows[] = {
+constexpr JsonMember<statics::RollingPower> power_rows[] = {
     {"drive", "number", "W/m",
      "Given by speed and spin against the forces of the ground: V F_x + s T",
      [](const statics::RollingPower& p) -> Json { return p.drive; }},
@@ -101,7 +101,7 @@ Json solid_only(const SteadyFigures& k, double value) {
 Json plane_only(const SteadyFigures& k, const Json& value) {
   return k.solid ? absent() : value;
 }
-constexpr MemberRow<SteadyFigures> figures_rows[] = {
+constexpr JsonMember<SteadyFigures> figures_rows[] = {
     {"force_x", "number", "N/m", "Force of the ground on the body, along x",
      [](const SteadyFigures& k) -> Json { return k.s.forces.heading; }},
     {"force_y", "number", "N/m", "Force of the ground on the body, along its normal",
@@ -169,7 +169,7 @@ constexpr MemberRow<SteadyFigures> figures_rows[] = {
     {"samples_per_sector", "integer", "", "Samples of the pass of a sector",
      [](const SteadyFigures& k) -> Json { return k.c.analysis.samples_per_sector; }},
 };
-constexpr MemberRow<SteadyFigures> state_rows[] = {
+constexpr JsonMember<SteadyFigures> state_rows[] = {
     {"steady", "object", "", "Means over the pass of a sector",
      [](const SteadyFigures& k) { return object_of(figures_rows, k); },
      [] { return texts_of(figures_rows); }},

@@ -26,7 +26,7 @@ struct MemberText {
 
 /// @tparam R  what the object is made from
 template <class R>
-struct MemberRow {
+struct JsonMember {
   std::string_view name, type, unit, meaning;  ///< as in MemberText
   Json (*value)(const R& r);                   ///< absent(): this object has no such member
   std::vector<MemberText> (*parts)() = nullptr;
@@ -37,28 +37,29 @@ inline Json absent() {
 }
 
 template <class R, std::size_t N>
-void add_members(const MemberRow<R> (&members)[N], const std::type_identity_t<R>& r, Json& object) {
-  for (const MemberRow<R>& member : members)
+void add_members(const JsonMember<R> (&members)[N], const std::type_identity_t<R>& r,
+                 Json& object) {
+  for (const JsonMember<R>& member : members)
     if (Json value = member.value(r); !value.is_discarded())
       object[std::string(member.name)] = std::move(value);
 }
 
 template <class R, std::size_t N>
-Json object_of(const MemberRow<R> (&members)[N], const std::type_identity_t<R>& r) {
+Json object_of(const JsonMember<R> (&members)[N], const std::type_identity_t<R>& r) {
   Json object = Json::object();
   add_members(members, r, object);
   return object;
 }
 
 template <class R, std::size_t N>
-Json objects_of(const MemberRow<R> (&members)[N], std::span<const std::type_identity_t<R>> list) {
+Json objects_of(const JsonMember<R> (&members)[N], std::span<const std::type_identity_t<R>> list) {
   Json array = Json::array();
   for (const R& r : list) array.push_back(object_of(members, r));
   return array;
 }
 
 template <class R, std::size_t N>
-std::vector<MemberText> texts_of(const MemberRow<R> (&members)[N]) {
+std::vector<MemberText> texts_of(const JsonMember<R> (&members)[N]) {
   std::vector<MemberText> texts;
   for (const auto& [name, type, unit, meaning, value, parts] : members)
     texts.push_back({name, type, unit, meaning, parts ? parts() : std::vector<MemberText>()});
