@@ -89,7 +89,7 @@ class ContactLengths(RunTest):
         return dict(zip(file["mesh/boundary"][:].tolist(), half_edges(file, k)))
 
     def test_a_crush_of_rubber_as_published(self):
-        """docs/rubber.md, section 5: contact 49.9 to 50.9 mm, largest pressure .431 to .434 MPa."""
+        """docs/validation.md, V35: contact 49.9 to 50.9 mm, largest pressure .431 to .434 MPa."""
         h, rows = self.made(ROLLER)
         self.assertGreater(self.look(self.plane), 0.3)
         last = rows["time_s"] == 1.0
