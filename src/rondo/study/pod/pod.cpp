@@ -135,7 +135,7 @@ PodReport run_pod(const PodRequest& asked) {
   const auto begin = Clock::now();
   PodRequest request = with_members(asked);
   request.frame = is_co_rotating(asked.frame, asked.warn) ? "rotating" : "rectified";
-  const SnapshotChoice choice = choice_of(request);
+  const SnapshotChoice choice = snapshot_choice_of(request);
   const pod::DecomposeOptions options = options_of(request);
   const std::vector<io::RunReader> runs = open_runs(request, choice);
   PodResult found;

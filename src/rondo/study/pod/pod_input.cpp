@@ -106,7 +106,7 @@ bool repeats(const mesh::Mesh& mesh, bool contact) {
 
 }  // namespace
 
-SnapshotChoice choice_of(const PodRequest& r) {
+SnapshotChoice snapshot_choice_of(const PodRequest& r) {
   SnapshotChoice choice;
   choice.quantity = value_of("--field", r.field, quantities);
   const bool contact = choice.quantity == io::Quantity::contact;

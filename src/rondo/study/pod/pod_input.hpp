@@ -14,7 +14,7 @@
 namespace rondo::study {
 
 /// @throws InputError: an unknown word, a weight that does not suit the field.
-SnapshotChoice choice_of(const PodRequest& request);
+SnapshotChoice snapshot_choice_of(const PodRequest& request);
 pod::Method method_of(const PodRequest& request);
 /// Amount in bytes. @throws InputError: not an amount of memory
 std::size_t memory_of(const PodRequest& request);

@@ -140,8 +140,8 @@ Source open_source(const ReduceRequest& r) {
           fmt::format("not the body of {}: {}", pod.runs.front().string(), difference),
           "runs of one mesh and material together");
   }
-  source.runs = open_runs(pod, choice_of(pod));
-  const std::size_t snapshots = columns_of(pod, choice_of(pod), source.runs).size();
+  source.runs = open_runs(pod, snapshot_choice_of(pod));
+  const std::size_t snapshots = columns_of(pod, snapshot_choice_of(pod), source.runs).size();
   if (snapshots < 2)
     throw request_error("--from, --to", "",
                         fmt::format("{} snapshots of the runs lie between: no model", snapshots),
@@ -151,7 +151,7 @@ Source open_source(const ReduceRequest& r) {
 
 RunSnapshots snapshots_of(const ReduceRequest& r, const Source& source, const char* field) {
   const PodRequest pod = pod_request(r, field);
-  const SnapshotChoice choice = choice_of(pod);
+  const SnapshotChoice choice = snapshot_choice_of(pod);
   std::vector<SnapshotColumn> columns = columns_of(pod, choice, source.runs);
   weigh_steady(source.runs, columns);
   return {source.runs, std::move(columns), choice};
@@ -184,7 +184,7 @@ ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
   ModelRanges ranges;
   for (const Case& c : source.cases)
     if (c.ground) ranges.friction.take(c.ground->friction);
-  for (const SnapshotColumn& column : columns_of(pod, choice_of(pod), source.runs)) {
+  for (const SnapshotColumn& column : columns_of(pod, snapshot_choice_of(pod), source.runs)) {
     const Case& c = source.cases[column.run];
     if (c.rim) continue;
     ranges.angular_velocity.take(c.motion.angular_velocity.at(column.time));
@@ -323,7 +323,7 @@ ErrorEstimate estimate_errors(const ReduceRequest& r, const Source& source, cons
   std::array<std::vector<SnapshotColumn>, 2> columns;
   for (std::size_t k = 0; const char* field : {"displacement", "velocity"}) {
     const PodRequest pod = pod_request(r, field);
-    columns[k++] = columns_of(pod, choice_of(pod), source.runs);
+    columns[k++] = columns_of(pod, snapshot_choice_of(pod), source.runs);
   }
   const std::vector<std::size_t> left_out = runs_to_leave_out(source.runs);
   const auto n = static_cast<long long>(left_out.size());
