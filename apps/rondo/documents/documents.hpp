@@ -16,7 +16,7 @@
 namespace rondo::app {
 
 using study::Json;
-using study::Member;
+using study::JsonMember;
 
 struct FmuReport;
 
