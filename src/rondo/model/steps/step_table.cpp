@@ -33,7 +33,7 @@ constexpr std::array names{
     FeatureName{has::massless, "contact nodes without mass"},
     FeatureName{has::restitution, "restitution"},
     FeatureName{has::energy_safe, "energy-safe impacts"},
-    FeatureName{has::friction_law, "friction that is no constant"},
+    FeatureName{has::friction_law, "friction that is not constant"},
     FeatureName{has::stiffness_damping, "stiffness damping"},
     FeatureName{has::stress_stiffening, "stress stiffening"},
     FeatureName{has::plane_stress, "plane stress"},
