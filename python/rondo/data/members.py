@@ -7,7 +7,7 @@ MEMBERS: dict[str, tuple[str, str, str]] = {
     "message": ("", "", "Reason of a failure: step, time, quantity"),
     "title": ("", "", "title of the case"),
     "version": ("", "", "Version of the program"),
-    "build": ("", "", "Kind of build"),
+    "build": ("", "", "Compiler, its version and the kind of build"),
     "build_id": ("", "", "Hash of the library modules in the program; program and Python module of one build have the same"),
     "build_record": ("", "", "What the program was built from. Every JSON document of the program has it, and reduced models as an attribute; rondo --version prints it"),
     "build_record.commit": ("", "", "Commit of the sources; \"unknown\" for a copy without git"),

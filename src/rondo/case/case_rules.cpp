@@ -214,7 +214,9 @@ void check_time(CaseValues& in, const Case& c) {
 void check_operator(CaseValues& in, const Case& c) {
   if (c.solver_operator != "cyclic" || is_solid(c)) return;
   const std::string_view why = why_not_cyclic(c);
-  if (!why.empty()) in.fault("solver.operator", std::string(why), "\"auto\" or \"sparse\"");
+  if (!why.empty())
+    in.fault("solver.operator", fmt::format("\"cyclic\" needs the step \"fused cyclic\": {}", why),
+             "\"auto\" or \"sparse\"");
 }
 
 /// Refuses combinations that no time step supports (model/steps/step_table.hpp).

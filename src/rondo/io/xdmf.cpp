@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 #include <exception>
 #include <iterator>
+#include <memory>
 #include <utility>
 
 #include "rondo/io/files.hpp"
@@ -24,24 +26,43 @@ constexpr const char* tail = "</Grid>\n</Domain>\n</Xdmf>\n";
 Xdmf::Xdmf(std::filesystem::path file, XdmfSeries series, std::vector<double> times)
     : path_(std::move(file)), series_(std::move(series)), times_(std::move(times)) {
   times_.reserve(series_.n_times);
-  write_file(path_, whole());
+  write_whole(true);
 }
 
 Xdmf::~Xdmf() {
   if (closed_ || listed_ == times_.size()) return;
   try {
-    write_beside(path_, whole());
-  } catch (const std::exception&) {  // what failed before this is told already
+    write_whole(false);
+  } catch (const std::exception&) {  // the error that ends the run was reported before
   }
 }
 
-/// The text with all grids.
-const std::string& Xdmf::whole() {
+/// Replaces the file by one with all grids. @param durable  also safe against a power cut
+void Xdmf::write_whole(bool durable) {
+  constexpr std::size_t block = 1 << 16;
+  const UnfinishedFile beside(path_.string() + unfinished_ending());
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(beside.path.c_str(), "wbe"),
+                                                      std::fclose);
+  if (!out) fail_on(path_, "create");
+  const auto put = [&] {
+    if (std::fwrite(text_.data(), 1, text_.size(), out.get()) != text_.size())
+      fail_on(path_, "write");
+    text_.clear();
+  };
   text_ = head;
-  for (std::size_t row = 0; row < times_.size(); ++row) append_grid(row);
+  for (std::size_t row = 0; row < times_.size(); ++row) {
+    append_grid(row);
+    if (text_.size() >= block) put();
+  }
   if (times_.empty()) append_reference_grid();
+  text_ += tail;
+  put();
+  if (std::fclose(out.release()) != 0) fail_on(path_, "write");
+  if (durable)
+    replace_file(beside.path, path_);
+  else if (std::rename(beside.path.c_str(), path_.c_str()) != 0)
+    fail_on(path_, "replace");
   listed_ = times_.size();
-  return text_ += tail;
 }
 
 void Xdmf::append_topology() {
@@ -117,13 +138,13 @@ void Xdmf::append_grid(std::size_t row) {
 
 void Xdmf::add(double time) {
   times_.push_back(time);
-  if (times_.size() >= listed_ + 1 + listed_ / 16) write_beside(path_, whole());
+  if (times_.size() >= listed_ + 1 + listed_ / 16) write_whole(false);
 }
 
 void Xdmf::close() {
   if (std::exchange(closed_, true)) return;
   series_.n_times = times_.size();
-  write_file(path_, whole());
+  write_whole(true);
 }
 
 }  // namespace rondo::io

@@ -72,7 +72,7 @@ class Xdmf {
   void append_reference_geometry();
   void append_reference_grid();
   void append_array(std::size_t row, const XdmfField& field);
-  const std::string& whole();
+  void write_whole(bool durable);
 
   std::filesystem::path path_;
   XdmfSeries series_;

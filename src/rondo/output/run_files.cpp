@@ -81,7 +81,8 @@ struct Program {};
 constexpr JsonMember<Program> program_members[] = {
     {"version", "string", "", "Version of the program",
      [](const Program&) -> Json { return version; }},
-    {"build", "string", "", "Kind of build", [](const Program&) -> Json { return build_options; }},
+    {"build", "string", "", "Compiler, its version and the kind of build",
+     [](const Program&) -> Json { return build_options; }},
     {"build_id", "string", "",
      "Hash of the library modules in the program; program and Python module of one build have the "
      "same",

@@ -279,7 +279,7 @@ std::string body_key(const Case& c) {
 
 namespace {
 
-/// What takes time, and hangs on body_key() alone.
+/// The part of the setup that takes time. It depends on body_key() alone.
 void make_body(const Case& c, int threads, Setup& s) {
   s.mesh = build_mesh(c, &s.warnings);
   s.materials = materials_of(c, s.mesh);
@@ -308,7 +308,7 @@ void demand_shared_body(const Case& c, int threads, SharedBody& shared) {
   check_places(c, shared.setup.mesh);
 }
 
-/// What hangs on the rest of the case.
+/// The part of the setup that depends on the rest of the case.
 void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   set_motion_and_friction(c, s.model);
   const int ratio = s.model.subdomains ? s.model.subdomains->ratio : 1;

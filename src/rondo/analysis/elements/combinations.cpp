@@ -20,8 +20,9 @@ InputError refusal_of(const Case& c, const dynamics::Model& model, const dynamic
   std::string_view key = row_of(c, limit.at).key;
   if (((limit.at | limit.with) & dynamics::has::sharp_corners) != 0) {
     const CornerWords words = corner_words(c, model);
+    const auto other = (limit.at | limit.with) & ~dynamics::Features{dynamics::has::sharp_corners};
     why += "; here are " + words.corners;
-    instead = words.instead;
+    instead = fmt::format("{}; or {}", row_of(c, other).without, words.instead);
   }
   return case_error(c, std::string(key), why, instead);
 }

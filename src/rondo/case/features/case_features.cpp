@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::study {
 namespace {
 
@@ -30,7 +32,7 @@ constexpr std::array rows{
                 [](const Case& c) { return c.wheel.width.has_value(); }},
     CaseFeature{has::camber, "motion.camber", "motion.camber = 0 and motion.slip_angle = 0",
                 has_slip_or_camber},
-    CaseFeature{has::loaded_rim, "rim", "no [rim]: a rim that follows [motion]",
+    CaseFeature{has::loaded_rim, "rim", "no [rim]",
                 [](const Case& c) { return c.rim.has_value(); }},
     CaseFeature{has::free_bodies, "disk.rim", "disk.rim = \"bonded\"",
                 [](const Case& c) { return !c.mesh && c.free_rim; }},
@@ -60,6 +62,8 @@ constexpr std::array rows{
     CaseFeature{
         has::energy_safe, "ground.impact", "no ground.impact",
         [](const Case& c) { return c.ground && c.ground->impact == contact::Impact::energy_safe; }},
+    CaseFeature{has::friction_law, "ground.friction", "a constant ground.friction",
+                [](const Case&) { return false; }},
     CaseFeature{has::stiffness_damping, "damping.stiffness", "damping.stiffness = 0",
                 [](const Case& c) { return c.damping.stiffness > 0.0; }},
     CaseFeature{has::stress_stiffening, "material.stress_stiffening",
@@ -89,7 +93,9 @@ const CaseFeature& row_of(const Case& c, dynamics::Features feature) {
   const auto* const in_case = std::ranges::find_if(
       rows, [&](const CaseFeature& row) { return is_it(row) && row.is_in(c); });
   if (in_case != rows.end()) return *in_case;
-  return *std::find_if(rows.rbegin(), rows.rend(), is_it);
+  const auto last = std::find_if(rows.rbegin(), rows.rend(), is_it);
+  RONDO_DEMAND(last != rows.rend(), feature);
+  return *last;
 }
 
 std::string instead_of(const Case& c, const dynamics::Limit& refusal) {

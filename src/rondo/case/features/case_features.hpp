@@ -25,7 +25,7 @@ struct CaseFeature {
 /// The row of a feature that the case or its model has.
 [[nodiscard]] const CaseFeature& row_of(const Case& c, dynamics::Features feature);
 
-/// "no [rim]: a rim that follows [motion]; or time.scheme = ...": alternatives to what the limit
+/// "no [rim]; or time.scheme = ...": alternatives to what the limit
 /// refuses. @pre it is a refusal of two features
 [[nodiscard]] std::string instead_of(const Case& c, const dynamics::Limit& refusal);
 

@@ -90,7 +90,7 @@ struct CyclicPlan {
   static constexpr std::ptrdiff_t lead = 2 * halo_columns;
 };
 
-/// What the cut is fitted to. The bits of the results do not hang on it.
+/// What the cut is fitted to. The bits of the results do not depend on it.
 struct CyclicTuning {
   /// Fields below this stay in the cache of a core from step to step: no passes of several steps.
   std::size_t cache_bytes = 1'200'000;

@@ -49,7 +49,7 @@ struct SolidPlan {
 inline constexpr int solid_steps_in_a_pass = 8;
 static_assert(solid_steps_in_a_pass <= halo_columns);
 
-/// What the cut is fitted to. The bits of the results do not hang on it.
+/// What the cut is fitted to. The bits of the results do not depend on it.
 struct SolidTuning {
   /// Fields below this stay in the cache of a core from step to step: no passes of several steps.
   std::size_t cache_bytes = 1'200'000;

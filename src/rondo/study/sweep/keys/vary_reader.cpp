@@ -114,8 +114,8 @@ void check_key(StudyReader& in, const std::string& path, const std::string& key,
   else if (!may_be_varied(key))
     in.fault(path, who + "is the same in all members", "another key of the case file");
   else if (find_case_key(key) == nullptr)
-    in.fault(path, who + "is no key of a case file",
-             meant.empty() ? "a key, e.g. ground.friction" : meant);
+    in.fault(path, who + "is no key of a case file" + (meant.empty() ? "" : "; " + meant),
+             "a key, e.g. ground.friction");
 }
 
 constexpr std::array kinds{"values", "linspace", "uniform"};
