@@ -76,7 +76,7 @@ TEST_P(Traps, AreLeftAsTheyWereInEachThread) {
 TEST(StepTraps, AreInTheGeneralStep) {
   const test::Built b = test::build(test::everything("", 3, 21));
   State state = test::start_at_rest(b.model);
-  state.v_next[static_cast<std::size_t>(b.model.free.back())].x = too_fast;
+  state.v_next.plane()[static_cast<std::size_t>(b.model.free.back())].x = too_fast;
   GeneralIntegrator integrator(b.model, state);
   StepReport report;
   EXPECT_DEATH(integrator.advance({&report, 1}), "");
