@@ -165,7 +165,7 @@ youngs_modulus = 5e6
 poissons_ratio = 0.3
 density = 1100
 )";
-  expect_fault(mesh, "mesh.clamped", 5, {"there is no rim", "or no [rim]"});
+  expect_fault(mesh, "mesh.clamped", 5, {"a body is free", "or no [rim]"});
 }
 
 TEST(CaseRim, FaultsComeAllAtOnce) {
