@@ -38,9 +38,9 @@ def test_help_tells_what_they_mean():
 
 @pytest.mark.parametrize("options, said", [
     ({"threads": 0}, r"threads = 0: is out of bounds.*1 to 1024"), ({"threads": "two"}, "threads = 'two': is of a wrong type"),
-    ({"overwrite": True, "resume": True}, "resume.*goes on with what overwrite would remove.*one of both"),
-    ({"step_factor": 2.0}, "step_factor = 2.0: is of a reduced run.*with reduced = a model of rondo.reduce"),
-    ({"snapshots": "modes"}, "snapshots = modes: is of a reduced run")])
+    ({"overwrite": True, "resume": True}, "resume.*continues what overwrite would remove.*one of the two"),
+    ({"step_factor": 2.0}, "step_factor = 2.0: is an option of a reduced run.*with reduced = a model of rondo.reduce"),
+    ({"snapshots": "modes"}, "snapshots = modes: is an option of a reduced run")])
 def test_what_the_command_line_refuses_is_refused(case, options, said):
     with pytest.raises(rondo.InputError, match=said):
         rondo.run(case, "out", **options)

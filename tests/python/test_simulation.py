@@ -262,7 +262,7 @@ def test_what_is_set_obeys_the_rules_of_a_case(case):
     solid = {"disk.mesh.circumferential": 30, "disk.mesh.radial": 2, "disk.mesh.axial": 2}
     steps = rondo.Simulation(SOLID, solid | {"rim.free": ["height", "speed"], "rim.force_x": 0.0,
                                              "motion.slip_angle": 0.0})
-    with pytest.raises(rondo.InputError, match="motion.slip_angle = 0.1.*sideways"):
+    with pytest.raises(rondo.InputError, match="motion.slip_angle = 0.1.*lateral speed"):
         steps.set({"motion.slip_angle": 0.1})
     assert steps.get("motion.slip_angle") == 0.0
     steps = rondo.Simulation(case)
@@ -285,7 +285,7 @@ def test_reduced_runs_keep_no_checkpoints_and_know_their_range(case):
     with pytest.warns(UserWarning, match="motion.speed"):
         steps.set({"motion.speed": 14.0})
     for wrong in ({"step_factor": 3.0}, {"reduced_step": "explicit"}):
-        with pytest.raises(rondo.InputError, match="is of a reduced run"):
+        with pytest.raises(rondo.InputError, match="is an option of a reduced run"):
             rondo.Simulation(case, **wrong)
 
 
