@@ -35,7 +35,7 @@ study::PodRequest request_of(const std::filesystem::path& run, std::uint32_t cho
 }
 
 void decompose(const study::PodRequest& request) {
-  const study::SnapshotChoice choice = study::choice_of(request);
+  const study::SnapshotChoice choice = study::snapshot_choice_of(request);
   const std::vector<io::RunReader> runs = study::open_runs(request, choice);
   study::RunSnapshots snapshots(runs, study::columns_of(request, choice, runs), choice);
   const pod::Decomposition found = pod::decompose(snapshots, {});
