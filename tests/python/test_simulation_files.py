@@ -182,7 +182,7 @@ def test_a_run_that_has_come_to_its_end(case):
         assert steps.is_over and steps.advance(3) == 0 and steps.step == steps.n_steps
         with pytest.raises(rondo.Error, match="come to its end when it was resumed"):
             steps.displacement
-        with pytest.raises(rondo.InputError, match="save.*the run is over"):
+        with pytest.raises(rondo.InputError, match="save.*the run has ended"):
             steps.save()
     assert pathlib.Path("out/run.json").read_bytes() == before
 
