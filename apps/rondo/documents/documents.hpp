@@ -42,7 +42,7 @@ Json modes_schema();
 /// @param unfinished numbers of the shards that are not, of --collect
 Json sweep_document(const study::SweepReport& report, const std::filesystem::path& directory,
                     const std::vector<std::size_t>& unfinished = {});
-/// Of --dry-run: nothing was run. @param workers runs at once
+/// Document of --dry-run, which runs nothing. @param workers runs at once
 Json plan_document(const study::DrySweep& dry, int workers);
 Json sweep_schema();
 

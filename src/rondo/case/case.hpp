@@ -266,7 +266,7 @@ bool has_rubber(const Case& c) noexcept;
 /// Reads and validates. `settings` are the "a.b=value" of --set, applied before validation; a value
 /// that is not TOML is taken as a string. @throws InputError with every fault, in the file's order.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
-/// The same for the text of a file that need not exist; messages call it `file`.
+/// Reads the text of a case, whose file need not exist; messages call it `file`.
 Case read_case_text(const std::filesystem::path& file, std::string text,
                     const std::vector<std::string>& settings = {});
 

@@ -209,7 +209,7 @@ void remove_rivals(CaseSource& from, std::string_view path) {
       });
 }
 
-/// Likewise for a material: only one key gives its change of volume.
+/// Removes the other key for the change of volume of a material, which only one key may give.
 void remove_rival_of_volume(CaseSource& from, std::string_view path) {
   const std::string_view table = table_of(path), leaf = leaf_of(path);
   if (without_indices(table) != "material" && without_indices(table) != "material.region[]") return;

@@ -65,13 +65,13 @@ std::string read_input(const std::filesystem::path& file, std::string_view what)
 
 /// A file of any kind, without settings. @throws InputError if it cannot be read or is not TOML.
 CaseSource load_toml(const std::filesystem::path& file, const TomlShape& shape);
-/// The same for a text; messages call it `name`.
+/// Loads a text instead of a file; messages call it `name`.
 CaseSource load_toml_text(const std::string& name, std::string text, const TomlShape& shape);
 
 /// Reads the file and applies the settings. @throws InputError if the file cannot be read or is not
 /// TOML.
 CaseSource load_case(const std::filesystem::path& file, const std::vector<std::string>& settings);
-/// The same for a text; messages call it `name`. @throws InputError if it is not TOML.
+/// Loads the text of a case; messages call it `name`. @throws InputError if it is not TOML.
 CaseSource load_case_text(const std::string& name, std::string text,
                           const std::vector<std::string>& settings);
 

@@ -54,7 +54,7 @@ class CaseValues {
   void read(const CaseKey& key, const std::string& path, const CaseMember& field) {
     read(key.allowed, key.use.required, path, field);
   }
-  /// The same with explicit bounds. @param required  for a text: it must not be empty
+  /// Reads a value within the bounds given. @param required  a text must not be empty
   void read(const Allowed& allowed, bool required, const std::string& path,
             const CaseMember& field);
 

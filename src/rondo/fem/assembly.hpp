@@ -70,7 +70,7 @@ std::vector<double> element_eigenvalues(const mesh::Mesh& mesh, std::span<const 
 double element_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
                                 std::span<const Vec2> prestress = {});
 
-/// The same bound from the elements of one sector, equal to round-off. @pre a cyclic mesh.
+/// The bound from the elements of one sector, equal to round-off. @pre a cyclic mesh.
 double sector_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> materials,
                                std::span<const Vec2> prestress = {});
 

@@ -36,7 +36,7 @@ class Harmonics {
   const Matrix& lower(int harmonic, double factor, double shift) {
     return lower(harmonic, factor, shift, shift);
   }
-  /// The same with another shift of the axial components: spin softens only those in the plane.
+  /// Takes another shift for the axial components: spin softens only those in the plane.
   const Matrix& lower(int harmonic, double factor, double shift, double axial_shift);
 
  private:

@@ -64,7 +64,7 @@ class NodalDilatation {
     for (const Term& t : terms(patch)) theta += dot(t.gradient, u(t.node));
     return patches_[patch].bulk * theta;
   }
-  /// The same pressure for a triangle: the mean over its corners. @pre holds(cell)
+  /// The pressure in a triangle: the mean over its corners. @pre holds(cell)
   template <class Displacement>
   [[nodiscard]] double mean_stress_of_cell(std::size_t cell, Displacement&& u) const {
     double sum = 0.0;

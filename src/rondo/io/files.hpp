@@ -20,7 +20,7 @@ std::string text_of(const std::filesystem::path& file);
 
 /// Writes a temporary file and renames it, so that readers never see half a file. @throws FileError
 void write_file(const std::filesystem::path& file, const std::string& text);
-/// The same by way of file.new, but not safe against a power cut: for files written often.
+/// Writes by way of file.new, not safe against a power cut: for files written often.
 void write_beside(const std::filesystem::path& file, const std::string& text);
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json);
 /// @throws FileError: cannot be read or is not JSON

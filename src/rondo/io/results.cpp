@@ -56,7 +56,7 @@ std::array<float, 6> turned_tensor(const fem::Stress& stress, Complex r) noexcep
           static_cast<float>(s[2])};
 }
 
-/// The same for all six components.
+/// Turns a stress with all six components.
 std::array<float, 6> turned_tensor(const fem::SolidStress& stress, Complex r) noexcept {
   const fem::SolidStress s = fem::turned(stress, r);
   return {static_cast<float>(s[0]), static_cast<float>(s[3]), static_cast<float>(s[5]),

@@ -153,7 +153,7 @@ Complex travel(const Table& speed, const Table& angle, double from, double lengt
   return sum;
 }
 
-/// The same for `from` < 0: speed and slip angle are extended before t = 0.
+/// The travel for `from` < 0: speed and slip angle are extended before t = 0.
 Complex prolonged_travel(const Table& speed, const Table& angle, double from,
                          double length) noexcept {
   const double v = speed.slope(0.0), a = angle.slope(0.0);

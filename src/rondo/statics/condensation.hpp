@@ -35,7 +35,7 @@ class Condensation {
   void append(std::span<const std::size_t> candidates);
   /// Empties the set; the factor stays.
   void clear();
-  /// Of the mesh.
+  /// The number of nodes of the mesh.
   [[nodiscard]] std::size_t n_nodes() const noexcept;
   /// (m) Places in `nodes`, in the order of the compliance's rows.
   [[nodiscard]] const std::vector<std::size_t>& set() const noexcept;

@@ -28,8 +28,8 @@ struct StationarySpin {
                                              std::span<const Vec2> reference,
                                              std::span<const int> free, double spin);
 
-/// Of a body of rubber at finite strain: f(u) = s² M (X + u) by Newton's method, with less of the
-/// spin first where that is needed. "unstable" too where no way was found to the whole of it.
+/// Solves f(u) = s² M (X + u) for a body of rubber at finite strain by Newton's method, with lower
+/// spins first if needed. The status is "unstable" also if the full spin was not reached.
 [[nodiscard]] StationarySpin stationary_spin(const fem::Hyperelasticity& body,
                                              std::span<const double> mass,
                                              std::span<const Vec2> reference,
@@ -47,28 +47,28 @@ struct StationarySpin {
 [[nodiscard]] bool eigenvalues_above(const fem::BlockCsr& k, std::span<const double> mass,
                                      std::span<const int> free, double shift);
 
-/// The same for a body of N equal sectors, without the assembled K: u is the same in each sector,
+/// Solves for a body of N equal sectors without the assembled K: u is the same in each sector,
 /// found from harmonic 0 alone; all harmonics are factorised to see whether it is stable (6.1a).
 [[nodiscard]] StationarySpin stationary_spin(const fem::SectorStiffness& k,
                                              std::span<const double> mass,
                                              std::span<const Vec2> reference, double spin);
 
-/// The same in three dimensions: (K - s²MP) u = s² M P X with P = diag(1, 1, 0).
+/// Solves (K - s²MP) u = s² M P X in three dimensions, with P = diag(1, 1, 0).
 [[nodiscard]] StationarySpin stationary_spin(const fem::SolidSector& k,
                                              std::span<const double> mass,
                                              std::span<const Vec2> reference, double spin);
 
-/// The same for a body of N equal sectors, from harmonic 0 alone.
+/// Solves for a body of N equal sectors, from harmonic 0 alone.
 [[nodiscard]] StationarySpin centrifugal_prestress(const fem::SectorStiffness& k,
                                                    std::span<const double> mass,
                                                    std::span<const Vec2> reference, double spin);
 
-/// The same for a body of N equal sectors: a factorisation of each harmonic.
+/// Answers for a body of N equal sectors by a factorisation of each harmonic.
 [[nodiscard]] bool eigenvalues_above(const fem::SectorStiffness& k, std::span<const double> mass,
                                      double shift);
 
-/// The same in three dimensions of K - shift M P with P = diag(1, 1, 0): whether a wheel bears a
-/// spin of which `shift` is the square.
+/// Answers in three dimensions for K - shift M P with P = diag(1, 1, 0): whether a wheel is stable
+/// at a spin whose square is `shift`.
 [[nodiscard]] bool eigenvalues_above(const fem::SolidSector& k, std::span<const double> mass,
                                      double shift);
 

@@ -35,7 +35,7 @@ class HarmonicFactor {
       if (!compute(k)) return false;
     return true;
   }
-  /// Of harmonic 0, which is real, after compute(0).
+  /// Solves harmonic 0, which is real. @pre compute(0)
   Eigen::VectorXd solve(const Eigen::VectorXd& load) const {
     const Eigen::VectorXcd x = solver_.solve(Eigen::VectorXcd(load.cast<std::complex<double>>()));
     return x.real();
@@ -67,7 +67,7 @@ StationarySpin nothing(std::size_t n) {
   return none;
 }
 
-/// The same polar components in every sector.
+/// Copies the polar components of one sector into every sector.
 template <int C>
 void spread(const fem::SectorBlocks<C>& k, const Eigen::VectorXd& polar, StationarySpin& out) {
   for (std::size_t j = 0; j < k.turn.size(); ++j)

@@ -16,13 +16,13 @@ class SteadyBody final : public RolledBody {
  public:
   [[nodiscard]] std::size_t memory(const Case& c) const override;
   void assemble(const Case& c) override;
-  /// In the plane the window too.
+  /// Finds the harmonics of a sector; in the plane it makes the window as well.
   void find_harmonics(const Case& c, int threads) override;
   [[nodiscard]] bool has_solution() const noexcept override { return harmonics->finite(); }
   [[nodiscard]] std::unique_ptr<RolledState> solve(const Case& c) const override;
   void add_columns(RecordPlan& plan) const override;
-  /// Of a state: in the plane a copy of that of the body, as camber and weight are the same for
-  /// all.
+  /// The window of one state. In the plane it is a copy of the window of the body, because camber
+  /// and weight are the same in all states.
   [[nodiscard]] statics::RollingWindow<D> window_of(const Case& c) const;
 
   fem::SectorBlocks<D> sector;

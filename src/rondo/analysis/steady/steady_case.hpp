@@ -19,7 +19,7 @@ namespace rondo::study {
 /// s, counter-clockwise.
 [[nodiscard]] double spin_of(const Case& c);
 [[nodiscard]] statics::SlipDifference slip_of(const Case& c);
-/// Of the ground [m].
+/// The height of the ground [m].
 [[nodiscard]] double floor_of(const Case& c);
 /// A sample of a turn, from 0 on.
 [[nodiscard]] inline int wrapped(int value, int count) noexcept {
@@ -48,7 +48,7 @@ class RolledState {
   virtual void fill(int place, Snapshot& snapshot) = 0;
   /// Displacements alone.
   virtual void displace(int place, Snapshot& snapshot) const = 0;
-  /// Of history.csv. @param now as filled for the place
+  /// Appends a row of history.csv. @param now as filled for the place
   virtual void append_row(int place, const Snapshot& now, std::vector<double>& rows) const = 0;
   [[nodiscard]] virtual SteadyResiduals residuals() const = 0;
   /// How far the lowest place of the body would be below the ground if nothing touched it [m].
@@ -82,7 +82,7 @@ class RolledBody {
   /// @pre find_harmonics(), has_solution(). @throws InputError: nothing touches; the speed of what
   /// slides as a whole is asked for. Case and body must outlive the state.
   [[nodiscard]] virtual std::unique_ptr<RolledState> solve(const Case& c) const = 0;
-  /// Of history.csv and contact.csv.
+  /// Adds the columns of history.csv and contact.csv.
   virtual void add_columns(RecordPlan& plan) const = 0;
 
   mesh::Mesh mesh;
@@ -105,7 +105,7 @@ void demand_free_shape(const Case& c, double lowest, double radius);
 /// For a spin of the case at which a wave has come to stand still.
 [[nodiscard]] std::string above_critical_spin(const Case& c, const modal::CriticalSpeed& lowest);
 
-/// As many as asked for, or chosen by size for 0.
+/// The number of threads: the number asked for, or for 0 one chosen by size.
 [[nodiscard]] int threads_for(const Case& c, const RolledBody& body, int asked);
 
 /// Assembled, or that of the run before where it fits, harmonics included.

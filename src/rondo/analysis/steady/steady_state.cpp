@@ -115,7 +115,7 @@ double SteadyState<D>::resistance() const noexcept {
   return (-spin() * torque() - solution_.speed * along) / std::abs(solution_.speed);
 }
 
-/// Of the speed along the heading.
+/// The slip ratio uses the component of the speed along the heading.
 template <int D>
 double SteadyState<D>::slip_ratio() const noexcept {
   return dynamics::slip_ratio(-spin() * body_.radius,

@@ -43,7 +43,7 @@ class SteadyState final : public RolledState {
 
  private:
   using Vec = typename statics::RollingBody<D>::Vec;
-  /// Of the rim, clockwise: what keeps the spin constant [N m].
+  /// The torque on the rim, clockwise, that keeps the spin constant [N m].
   [[nodiscard]] double torque() const noexcept { return solution_.forces.torque; }
   /// Power lost over speed: (ω T - V·F) / |V|; NaN where V is 0 [N].
   [[nodiscard]] double resistance() const noexcept;
@@ -60,18 +60,18 @@ class SteadyState final : public RolledState {
   void unroll(const Eigen::MatrixXd& field, int place, double by, Field& nodes) const;
   [[nodiscard]] int sense() const noexcept { return spin() > 0.0 ? 1 : -1; }
   [[nodiscard]] double spin() const noexcept { return body_.harmonics->body().spin; }
-  /// Where a pair is touched: place, and number in mesh.boundary.
+  /// The sample of the pass at which a pair touches, and its node by number in mesh.boundary.
   struct Where {
     int place = 0;
     std::size_t candidate = 0;
   };
   [[nodiscard]] Where where(std::size_t pair) const;
   [[nodiscard]] double height() const { return floor_of(case_) + solution_.height; }
-  /// Along n, t1 and t2 [N].
+  /// The force of a pair along n, t1 and, in space, t2 [N].
   [[nodiscard]] statics::NodeVector<D> force(std::size_t pair) const {
     return solution_.force.segment<D>(static_cast<Eigen::Index>(D * pair));
   }
-  /// Along t1 in the plane, with its sign; in space its length [m/s].
+  /// The slip of a pair: in the plane along t1 with its sign, in space its length [m/s].
   [[nodiscard]] double slip(std::size_t pair) const;
 
   const Case& case_;

@@ -16,8 +16,8 @@ namespace rondo::study {
 /// A member without its value.
 struct MemberText {
   std::string_view name;
-  /// Of JSON: "string", "integer or null", "array of string", "object of string". A "number" may
-  /// always be null, which stands for one that is not finite.
+  /// Type in JSON: "string", "integer or null", "array of string", "object of string". A "number"
+  /// may always be null, which stands for one that is not finite.
   std::string_view type;
   std::string_view unit;               ///< of a plane body, see unit_of(); "": none
   std::string_view meaning;            ///< in Markdown

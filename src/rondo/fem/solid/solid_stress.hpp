@@ -37,7 +37,7 @@ class SolidStressRecovery {
   std::vector<SolidStress> nodal_;
 };
 
-/// The same stress for a single evaluation.
+/// Recovers the stress once, for a single evaluation.
 std::vector<SolidStress> solid_stress(const mesh::Mesh& mesh, std::span<const Material> materials,
                                       std::span<const Vec3> u);
 

@@ -177,7 +177,7 @@ class File {
   /// which a row of create_rows() takes about `bytes_of_entry`. With room for all rows, giving up
   /// rows at the end leaves no gap, and the file becomes shorter. @throws FileError
   static File create(const std::filesystem::path& path, std::size_t index_bytes = 0);
-  /// The same for a file that begins with `bytes` that do not belong to HDF5: a power of two, at
+  /// Creates a file that begins with `bytes` that do not belong to HDF5: a power of two, at
   /// least 512.
   static File create_after(const std::filesystem::path& path, std::size_t bytes);
   static constexpr std::size_t bytes_of_entry = 100;

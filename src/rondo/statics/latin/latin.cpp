@@ -15,7 +15,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Of a candidate at an increment: (6.4d) without its scale [N/m]. `slip`: within the increment.
+/// The residual (6.4d) of a candidate at an increment, without its scale [N/m].
 double law_residual_of(const LatinProblem& p, const LatinPair& pair, Index j, Index k) {
   const Index n = 2 * j, t = n + 1;
   const double before = k > 0 ? pair.place(t, k - 1) : 0.0;

@@ -32,7 +32,7 @@ void obey_laws(const LatinPair& elastic, double direction, double friction, Lati
 /// The law's residual over all increments, (L.7): about the relative error of the forces.     [-]
 [[nodiscard]] double history_residual(const LatinProblem& problem, const LatinPair& pair);
 
-/// The same of each increment, the largest of its candidates over the largest force of all
+/// The residual of each increment: the largest of its candidates over the largest force of all
 /// increments, (6.4d). (N)
 [[nodiscard]] Eigen::VectorXd increment_residuals(const LatinProblem& problem,
                                                   const LatinPair& pair);

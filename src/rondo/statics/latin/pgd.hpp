@@ -48,7 +48,7 @@ class Pgd final : public Elasticity {
   [[nodiscard]] int modes() const noexcept { return static_cast<int>(rotation_.cols()); }
   [[nodiscard]] int most_modes() const noexcept { return most_modes_; }
   [[nodiscard]] int solves() const noexcept { return solves_; }
-  /// Of the displacement last found, without what is below `share` of its norm in A.
+  /// The displacement found last, without the modes below `share` of its norm in A.
   [[nodiscard]] Separated separated(double share) const;
   /// All that was solved for or begun with, orthonormal in A: for another run to begin with.
   [[nodiscard]] Fields basis() const;

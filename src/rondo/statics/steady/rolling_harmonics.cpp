@@ -120,7 +120,7 @@ NodeMatrix<D> RollingHarmonics<D>::compliance(std::size_t a, std::size_t b,
   return g;
 }
 
-/// Of spin, and loads that are the same in all sectors.
+/// Forces of the spin, and loads that are the same in all sectors.
 template <int D>
 Eigen::VectorXcd RollingHarmonics<D>::constant_load() const {
   Eigen::VectorXcd f = Eigen::VectorXcd::Zero(n_rows());
@@ -135,7 +135,7 @@ Eigen::VectorXcd RollingHarmonics<D>::constant_load() const {
   return f;
 }
 
-/// Of an acceleration of 1: along -z it is in harmonic 0; along -y it turns past the sectors, in
+/// Force of an acceleration of 1: along -z in harmonic 0; along -y it turns past the sectors, in
 /// harmonic 1: R(-ψ)(0, -m) = -m (sin ψ, cos ψ).
 template <int D>
 Eigen::VectorXcd RollingHarmonics<D>::weight_load(bool axial) const {

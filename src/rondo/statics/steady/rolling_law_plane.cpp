@@ -106,7 +106,8 @@ std::set<std::pair<std::size_t, int>> stick_zone(const PlaneProblem& coarse,
   return zone;
 }
 
-/// The same forces, height and speed on the pairs of the groups, and statuses that lead to theirs.
+/// Spreads forces, height and speed over the pairs of the groups, with statuses that lead to
+/// theirs.
 RollingState spread_state(const RollingGroups<2>& groups, const RollingState& of) {
   const auto zone = stick_zone(groups.problem, of.statuses);
   RollingState s{.point = {spread(groups, of.point.force), of.point.height, of.point.speed}};

@@ -29,7 +29,7 @@ struct RollingEffort {
 struct RollingState {
   RollingPoint point{};
   RollingStatuses statuses{};  ///< (pairs)
-  /// Of the law, relative (6.4d); infinite: nothing was solved yet                            [-]
+  /// Residual of the law, relative (6.4d); infinite: nothing was solved yet [-]
   double residual = std::numeric_limits<double>::infinity();
   RollingSlopes slopes{};  ///< of what is solved
   bool touches = true;     ///< false: nothing is closed

@@ -59,7 +59,7 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
   power.mass = damped.by_mass;
   power.stiffness = damped.by_stiffness;
   power.weight = h.weight(spectrum, w.gravity());
-  // Of the ground alone: the weight's part is an entry of its own.
+  // The torque of the ground alone: the weight's part is an entry of its own.
   const double torque = s.forces.torque + power.weight / spin;
   power.drive = ahead * s.forces.heading + aside * s.forces.lateral + spin * torque;
   double of_field = 0.0;  // Σ r·w by the field's own velocity

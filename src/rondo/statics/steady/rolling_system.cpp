@@ -108,7 +108,8 @@ void RollingSystem<D>::reduce(const Moved& moved, Eigen::Ref<VectorXd> rows) con
   }
 }
 
-/// Of a sliding pair whose direction turns r_t - μ r_n e - C (r_t - w/c) = 0, in ways; C q_t is 0.
+/// Row of a sliding pair whose direction turns: r_t - μ r_n e - C (r_t - w/c) = 0, in ways; C q_t
+/// is 0.
 template <int D>
 void RollingSystem<D>::fill() {
   for (const Pair& column : closed_) {

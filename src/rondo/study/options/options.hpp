@@ -66,7 +66,7 @@ Options fmu_options(FmuRequest& request);
 /// 0: chosen by size.
 Option threads_option(int& threads);
 
-/// The help with unit and choices: "Time of the first snapshot that is taken [s]".
+/// The help with unit and choices: "Time of the first snapshot used [s]".
 std::string help_text(const Option& option, std::string_view help);
 /// The default as text; empty: the help explains it.
 std::string default_text(const Option& option);

@@ -14,7 +14,7 @@ struct MemberGroup {
 
 std::vector<MemberGroup> run_json_groups();
 
-/// Of run.json at any time from the start of a run on.
+/// Schema of run.json at any time after the start of a run.
 Json run_json_schema();
 
 /// python/rondo/data/members.py: of each member its unit, that of a wheel in three dimensions, and

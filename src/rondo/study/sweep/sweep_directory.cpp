@@ -63,7 +63,7 @@ void demand_ended(const fs::path& directory) {
                                 host));
 }
 
-/// The same check for the sweep and all its shards and runs. @throws FileError
+/// Checks the sweep and all its shards and runs. @throws FileError
 void demand_all_ended(const fs::path& sweep) {
   demand_ended(sweep);
   std::error_code error;

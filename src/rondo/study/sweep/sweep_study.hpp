@@ -43,7 +43,7 @@ struct SweepStudy {
 
 /// @throws InputError with every fault
 [[nodiscard]] SweepStudy read_study(const std::filesystem::path& file);
-/// The same from a text; messages call it `file`, and `base` is relative to that.
+/// Reads the text of a study; messages call it `file`, to which `base` is relative.
 [[nodiscard]] SweepStudy read_study_text(const std::filesystem::path& file, std::string text);
 
 /// Refuses settings that varied keys would hide or that have no meaning. @throws InputError
