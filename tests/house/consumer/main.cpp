@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Drives the solver from another program, with public headers alone: a spinning disk without a
-/// file, by both operators; a mesh; a case in a loop of its own, as a run into a directory, and
-/// refused. Arguments: a mesh, a case, a directory for results.
+/// file, by both operators; a mesh; a case in a loop of its own, as a run into a directory, with
+/// a friction law of its own, and refused. Arguments: a mesh, a case, a directory for results.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -9,6 +9,7 @@
 #include <rondo/analysis/build/build.hpp>
 #include <rondo/analysis/run.hpp>
 #include <rondo/case/case.hpp>
+#include <rondo/contact/friction.hpp>
 #include <rondo/core/error.hpp>
 #include <rondo/fem/assembly.hpp>
 #include <rondo/fem/sector_stiffness.hpp>
@@ -73,6 +74,28 @@ bool steps_are_those_of_a_run(const study::Case& c, const std::filesystem::path&
          Field(last) == state.u;
 }
 
+/// A friction law of this program's own: one that is 0 everywhere moves the body as
+/// ground.friction = 0 does, which its own friction does not.
+bool a_friction_law_is_obeyed(const std::filesystem::path& file) {
+  const auto moved = [&](const char* friction, const contact::Friction* law) {
+    study::Setup setup = study::build(study::read_case(file, {"time.end=0.015", friction}), 1);
+    if (law != nullptr) setup.model.contact->law.friction = *law;
+    dynamics::State state = dynamics::start(setup.model, setup.displacement, setup.velocity);
+    std::vector<dynamics::StepReport> reports(static_cast<std::size_t>(setup.n_steps));
+    make_integrator(setup.model, state)->advance(reports, &state);
+    return to_vector(state.u.plane());
+  };
+  const contact::Friction none([](const contact::SlidingState&) { return 0.0; });
+  const auto own = moved("ground.friction=0.6", &none), same = moved("ground.friction=0", nullptr),
+             other = moved("ground.friction=0.6", nullptr);
+  double wrong = 0.0, seen = 0.0;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    wrong = std::max(wrong, norm(own[i] - same[i]));
+    seen = std::max(seen, norm(other[i] - same[i]));
+  }
+  return wrong < 1e-9 * seen;  // two steps that agree to round-off
+}
+
 bool is_refused(const std::filesystem::path& file) {
   try {
     static_cast<void>(study::read_case(file, {"material.young=2e7", "ground.friction=-1"}));
@@ -88,5 +111,6 @@ int main(int, char** arguments) {
   const study::Case c = study::read_case(
       arguments[2], {"time.end=0.002", "output.snapshots=2", "solver.operator=sparse"});
   if (!steps_are_those_of_a_run(c, arguments[3])) return 3;
+  if (!a_friction_law_is_obeyed(arguments[2])) return 5;
   return is_refused(arguments[2]) ? 0 : 4;
 }

@@ -2,6 +2,7 @@
 #include "rondo/analysis/figures/steady_figures.hpp"
 
 #include <array>
+#include <initializer_list>
 #include <limits>
 
 #include "rondo/io/files.hpp"
@@ -66,61 +67,43 @@ double number(const Json& j, const char* key) {
                                                : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<double> solid_figures_in(const std::filesystem::path& directory,
-                                     const Window& /*none*/) {
-  return solid_steady_figures_of(io::read_json(directory / "run.json"));
-}
-
+template <bool solid>
 std::vector<double> figures_in(const std::filesystem::path& directory, const Window& /*none*/) {
-  return steady_figures_of(io::read_json(directory / "run.json"));
+  return steady_figures_of(io::read_json(directory / "run.json"), solid);
 }
 
 }  // namespace
 
-std::vector<double> steady_figures_of(const Json& run) {
+std::vector<double> steady_figures_of(const Json& run, bool solid) {
   const Json steady = run.value("steady", Json::object());
-  const double stick = number(steady, "stick_length"), slip = number(steady, "slip_length");
+  const double stick = number(steady, solid ? "stick_area" : "stick_length"),
+               slip = number(steady, solid ? "slip_area" : "slip_length");
   std::vector<double> figures;
-  for (const char* key :
-       {"force_x", "force_y", "torque", "height", "speed", "slip_ratio", "rolling_resistance"})
-    figures.push_back(number(steady, key));
+  const auto add = [&](std::initializer_list<const char*> keys) {
+    for (const char* key : keys) figures.push_back(number(steady, key));
+  };
+  add({"force_x", "force_y"});
+  if (solid) add({"force_lateral", "moment_aligning", "moment_overturning"});
+  add({"torque", "height", "speed", "slip_ratio", "rolling_resistance"});
+  if (solid) {
+    const Json slopes = steady.value("slopes", Json::object());
+    figures.push_back(-number(slopes.value("by_slip_angle", Json::object()), "force_lateral"));
+  }
   figures.push_back(stick / (stick + slip));
   figures.push_back(stick + slip);
-  figures.push_back(number(steady, "pressure_max"));
-  figures.push_back(number(steady, "shear_max"));
+  add({"pressure_max", "shear_max"});
   figures.push_back(number(steady.value("power", Json::object()), "friction"));
-  figures.push_back(number(steady, "scheme_share"));
+  add({"scheme_share"});
   add_figures_of_all(run, figures);
   return figures;
 }
 
 FigureTable steady_figures() noexcept {
-  return {steady_columns, figures_in, false};
-}
-
-std::vector<double> solid_steady_figures_of(const Json& run) {
-  const Json steady = run.value("steady", Json::object());
-  const double stick = number(steady, "stick_area"), slip = number(steady, "slip_area");
-  std::vector<double> figures;
-  for (const char* key :
-       {"force_x", "force_y", "force_lateral", "moment_aligning", "moment_overturning", "torque",
-        "height", "speed", "slip_ratio", "rolling_resistance"})
-    figures.push_back(number(steady, key));
-  const Json by_angle =
-      steady.value("slopes", Json::object()).value("by_slip_angle", Json::object());
-  figures.push_back(-number(by_angle, "force_lateral"));
-  figures.push_back(stick / (stick + slip));
-  figures.push_back(stick + slip);
-  figures.push_back(number(steady, "pressure_max"));
-  figures.push_back(number(steady, "shear_max"));
-  figures.push_back(number(steady.value("power", Json::object()), "friction"));
-  figures.push_back(number(steady, "scheme_share"));
-  add_figures_of_all(run, figures);
-  return figures;
+  return {steady_columns, figures_in<false>, false};
 }
 
 FigureTable solid_steady_figures() noexcept {
-  return {steady_solid_columns, solid_figures_in, false};
+  return {steady_solid_columns, figures_in<true>, false};
 }
 
 }  // namespace rondo::study

@@ -6,12 +6,10 @@
 namespace rondo::study {
 
 [[nodiscard]] FigureTable steady_figures() noexcept;
-
-/// Of what run.json says.
-[[nodiscard]] std::vector<double> steady_figures_of(const Json& run);
-
-/// Of a wheel in three dimensions.
+/// The table for wheels in three dimensions.
 [[nodiscard]] FigureTable solid_steady_figures() noexcept;
-[[nodiscard]] std::vector<double> solid_steady_figures_of(const Json& run);
+
+/// The figures from the contents of run.json. @param solid a wheel in three dimensions
+[[nodiscard]] std::vector<double> steady_figures_of(const Json& run, bool solid);
 
 }  // namespace rondo::study

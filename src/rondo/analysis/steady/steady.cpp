@@ -233,7 +233,7 @@ DirectRun solve_steady_rolling(const Case& c, const RunOptions& options) {
   analysis.summarise(json, report);
   run.steps = report.steps;
   if (!run.trouble.empty()) return run;
-  run.figures = is_solid(c) ? solid_steady_figures_of(json) : steady_figures_of(json);
+  run.figures = steady_figures_of(json, is_solid(c));
   return run;
 }
 
