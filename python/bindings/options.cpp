@@ -12,6 +12,21 @@
 namespace rondo::python {
 namespace {
 
+std::string wanted(const study::Option& option) {
+  return std::visit(
+      [](const auto* target) -> std::string {
+        using T = std::remove_cvref_t<decltype(*target)>;
+        if constexpr (std::is_same_v<T, bool>) return "True or False";
+        if constexpr (std::is_same_v<T, int> || std::is_same_v<T, std::optional<long long>>)
+          return "a whole number";
+        if constexpr (std::is_same_v<T, double> || std::is_same_v<T, std::optional<double>>)
+          return "a number";
+        if constexpr (std::is_same_v<T, std::vector<double>>) return "a list of numbers";
+        return "a text";
+      },
+      option.target);
+}
+
 void take(const py::dict& given, const study::Option& option) {
   const std::string name(option.python);
   const py::object value = given[name.c_str()];
@@ -20,8 +35,7 @@ void take(const py::dict& given, const study::Option& option) {
         [&](auto* target) { *target = value.cast<std::remove_pointer_t<decltype(target)>>(); },
         option.target);
   } catch (const py::cast_error&) {
-    throw request_error(name, py::repr(value), "is of a wrong type",
-                        "as docs/python.md and help() say");
+    throw request_error(name, py::repr(value), "is of a wrong type", wanted(option));
   }
   if (!option.range) return;
   const int number = *std::get<int*>(option.target);

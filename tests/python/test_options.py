@@ -37,7 +37,7 @@ def test_help_tells_what_they_mean():
 
 
 @pytest.mark.parametrize("options, said", [
-    ({"threads": 0}, r"threads = 0: is out of bounds.*1 to 1024"), ({"threads": "two"}, "threads = 'two': is of a wrong type"),
+    ({"threads": 0}, r"threads = 0: is out of bounds.*1 to 1024"), ({"threads": "two"}, r"threads = 'two': is of a wrong type \(allowed: a whole number\)"),
     ({"overwrite": True, "resume": True}, "resume.*continues what overwrite would remove.*one of the two"),
     ({"step_factor": 2.0}, "step_factor = 2.0: is an option of a reduced run.*with reduced = a model of rondo.reduce"),
     ({"snapshots": "modes"}, "snapshots = modes: is an option of a reduced run")])

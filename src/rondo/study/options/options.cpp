@@ -53,15 +53,14 @@ Options run_options(RunOptions& r) {
       {.words = "--reduced-step",
        .python = "reduced_step",
        .target = &r.reduced_step,
-       .help = "Scheme of a reduced run; midpoint is implicit, explicit means central differences",
+       .help = "Implicit or central-difference scheme of a reduced run",
        .choices = "midpoint | explicit",
        .needs = reduced_run},
       {.words = "--snapshots",
        .python = "snapshots",
        .target = &r.reduced_snapshots,
-       .help =
-           "Snapshots of a reduced run; modes: coordinates only, far cheaper, no stress; Python "
-           "computes the fields from them",
+       .help = "Snapshots of a reduced run as fields, or as coordinates of the modes, which are "
+               "far cheaper, have no stress, and become fields in Python",
        .choices = "fields | modes",
        .needs = reduced_run},
   };
@@ -98,10 +97,10 @@ Options pod_options(PodRequest& r) {
       last_time(r.to),
       {"--modes", "modes", &r.modes,
        "Number of modes; if left out, as many as leave out 1e-6 of the energy"},
-      {"--weight", "weight", &r.weight, "Norm; if left out mass, delassus for contact", "",
+      {"--weight", "weight", &r.weight, "Norm, by default mass, for contact delassus", "",
        "mass | delassus | none"},
-      {"--shift", "shift", &r.shift, "Fields are rectified by the angle itself or by whole sectors",
-       "", "fourier | pitch"},
+      {"--shift", "shift", &r.shift, "Rectification by the angle itself or by whole sectors", "",
+       "fourier | pitch"},
       {"--memory", "memory", &r.memory,
        "Memory limit, e.g. 500MB; snapshots that exceed it are streamed"},
       {"--method", "method", &r.method, "Method of the decomposition", "",
@@ -149,13 +148,11 @@ Options reduce_options(ReduceRequest& r) {
                "comparisons",
        .range = OptionRange{1, 16}},
       {"--contact", "contact", &r.contact,
-       "Contact points that are fixed in space, or the nodes that pass by; if left out, places on "
-       "a "
-       "smooth disk, nodes otherwise",
+       "Contact points, by default places that are fixed in space on a smooth disk, otherwise "
+       "nodes that pass by",
        "", "places | nodes"},
-      {"--frame", "frame", &r.frame,
-       "Frame of the modes; co-rotating (with the disk) for comparisons", "",
-       "rectified | co-rotating"},
+      {"--frame", "frame", &r.frame, "Frame of the modes, of which co-rotating is for comparisons",
+       "", "rectified | co-rotating"},
       {"--memory", "memory", &r.memory, memory_help},
       {.words = "--no-error-estimate",
        .python = "error_estimate",
