@@ -7,10 +7,10 @@ namespace rondo::study {
 
 [[nodiscard]] FigureTable steady_figures() noexcept;
 
-/// Of what run.json says.
+/// Figures from what run.json says.
 [[nodiscard]] std::vector<double> steady_figures_of(const Json& run);
 
-/// Of a wheel in three dimensions.
+/// Figures of a wheel in three dimensions.
 [[nodiscard]] FigureTable solid_steady_figures() noexcept;
 [[nodiscard]] std::vector<double> solid_steady_figures_of(const Json& run);
 
