@@ -35,7 +35,7 @@ struct CheckOptions {
   bool columns = false;          ///< those of history.csv are wanted
 };
 
-/// What a case would cost and whether it can run, without running it. @throws InputError as a run
+/// The cost of a case and whether it can run, without running it. @throws InputError as a run
 /// would
 [[nodiscard]] CheckReport check_case(const Case& c, const CheckOptions& options);
 

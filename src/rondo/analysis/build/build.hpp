@@ -48,7 +48,7 @@ void choose_threads(Setup& s, int asked);
 /// Parts that no cell joins.
 int count_bodies(const dynamics::Model& model);
 
-/// What can be done harmonic by harmonic is.
+/// Whether what can be done harmonic by harmonic is done so.
 bool by_harmonics(const dynamics::Model& model);
 
 /// Nodes that move in the co-rotating frame, ascending.

@@ -15,7 +15,7 @@ namespace rondo::study {
 enum class Statistic { mean, min, max, last };
 
 struct ChosenFigure {
-  std::string column;  ///< of history.csv
+  std::string column;  ///< column of history.csv
   Statistic statistic = Statistic::last;
   ColumnLabel label;  ///< label in the table of the sweep
 };
