@@ -11,7 +11,7 @@
 namespace rondo::study {
 namespace {
 
-/// Of the smallest element: less is what neighbours of contact nodes do where the boundary bends.
+/// Share of the smallest element: neighbours of contact nodes go less deep where boundaries bend.
 constexpr double depth_share = 0.25;
 
 std::vector<int> unguarded_nodes(const mesh::Mesh& mesh) {

@@ -11,10 +11,10 @@ namespace rondo::study {
 
 class BoundaryWatch {
  public:
-  /// Of a generated disk, a run without ground and one whose whole boundary may touch: nothing.
+  /// Watches nothing for a generated disk, without ground, and where the whole boundary may touch.
   BoundaryWatch(const Case& c, const Setup& setup);
 
-  /// What is wrong in this state, with node, place and time, the first time; else empty.
+  /// The trouble in this state, with node, place and time, the first time; else empty.
   [[nodiscard]] std::string look(const dynamics::State& state);
 
  private:
@@ -22,7 +22,7 @@ class BoundaryWatch {
 
   const Case& case_;
   const Setup& setup_;
-  std::vector<int> nodes_;  ///< of the boundary, neither held nor candidates
+  std::vector<int> nodes_;  ///< nodes of the boundary, neither held nor candidates
   double depth_ = 0.0;      ///< from which a node counts as inside                     [m]
 };
 

@@ -71,7 +71,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   virtual void add_series(const dynamics::State& /*state*/, Snapshot& /*snapshot*/) {}
   /// While it runs, or at its end.
   void warn(std::string warning);
-  /// The step was chosen anew: what hangs on it is, too.
+  /// Plans the snapshots by the step: at the start, and again when the step was chosen anew.
   void plan_snapshots();
 
  private:
@@ -103,7 +103,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   double fastest_ = 0.0;                ///< spin that was looked at for softening      [rad/s]
   std::vector<dynamics::StepReport> reports_;
   dynamics::State state_;
-  dynamics::State boundary_state_;  ///< of rows that need no more than the contact boundary
+  dynamics::State boundary_state_;  ///< state for rows that need no more than the contact boundary
   std::unique_ptr<dynamics::Integrator> integrator_;
   long long steps_ = 0;
   ContactStatistics contact_;

@@ -33,7 +33,7 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
                          setup_.n_steps, step.frame.time - half, found.what);
 }
 
-/// What is wrong with a loaded rim; empty: nothing.
+/// The trouble with a loaded rim; empty: none.
 std::string DynamicAnalysis::look_at_rim(const dynamics::StepReport& step) {
   const std::string turned = turned_too_far(step.frame.turn, setup_.model.dt);
   if (!turned.empty()) return turned;

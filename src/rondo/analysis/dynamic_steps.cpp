@@ -16,7 +16,7 @@ HistoryPlace never_due() {
   return place;
 }
 
-/// What keeps a copy of the tables, or numbers made of them.
+/// Refuses models that keep a copy of the tables, or numbers made of them.
 void refuse_fixed_motion(const Case& c, const dynamics::Model& model) {
   if (model.subdomains)
     throw case_error(c, "time.scheme",
@@ -81,7 +81,7 @@ void DynamicAnalysis::take_tables() {
   warn_of_faster_spin();
 }
 
-/// Of the tables as they were, build() has spoken.
+/// Warns of a spin above all before; build() has warned by the tables as they were.
 void DynamicAnalysis::warn_of_faster_spin() {
   const double spin = case_.motion.angular_velocity.largest();
   if (spin <= fastest_) return;

@@ -25,11 +25,11 @@ inline constexpr double least_share = 1e-3;
 /// predictions (docs/reduced.md, 8b).
 inline constexpr double estimate_over_largest = 2.0;
 
-/// What a prediction may be off by, from the errors of the runs behind the model, each predicted
+/// The likely error of a prediction, from the errors of the runs behind the model, each predicted
 /// from the others.
 struct ErrorEstimate {
   std::vector<std::string> runs;    ///< those that were left out in turn
-  std::vector<ForceErrors> errors;  ///< of each, with its sign
+  std::vector<ForceErrors> errors;  ///< errors of each run, with their sign
   std::string none;                 ///< why there are none; empty: there are
 
   /// The largest of each, times estimate_over_largest; NaN where no run has one. @pre there are

@@ -15,12 +15,12 @@ namespace rondo::study {
 /// How the loop went, what was before a checkpoint included.
 struct Loop {
   RunStatus status = RunStatus::done;
-  std::string message;  ///< of a failure
+  std::string message;  ///< message of a failure
   double wall_s = 0.0;
   double cpu_s = 0.0;
-  double last_time = 0.0;     ///< of the last row of history.csv, once closed
+  double last_time = 0.0;     ///< time of the last row of history.csv, once closed
   std::size_t snapshots = 0;  ///< in the files, once these are closed
-  OutputCost output;          ///< likewise
+  OutputCost output;          ///< cost of these files, once closed
 };
 
 struct LoopPlan {
@@ -34,7 +34,7 @@ struct LoopPlan {
 /// begin(), advance() until is_over(), finish(). Each throws FileError.
 class Looper {
  public:
-  /// What both are made of must outlive it.
+  /// The members of the plan and the recorder must outlive it.
   Looper(const LoopPlan& plan, Recorder& recorder);
   /// Records the start.
   void begin();

@@ -15,8 +15,8 @@ namespace rondo::study {
 /// strains can mean. Compared at every step; an inverted cell is seen at looks of StrainWatch.
 double largest_strain_energy(const Setup& setup);
 
-/// What is out of bound, and when: a half step (velocities, ledger) comes before its step's
-/// contact.
+/// The quantity that is out of bound, and when: a half step (velocities, ledger) comes before its
+/// step's contact.
 struct OutOfBound {
   std::string what;  ///< empty while all is well
   bool at_half_step = false;
@@ -31,7 +31,7 @@ double energy_residual_bound(const Setup& setup) noexcept;
 struct Bounds {
   double ledger = 0.0;         ///< relative residual
   double strain_energy = 0.0;  ///< [J/m]
-  std::string impact_cure;     ///< of impact_cure()
+  std::string impact_cure;     ///< result of impact_cure()
   bool guards_impacts = true;  ///< the run ends above impact_gain_bound
   std::string_view energy_unit = "J/m";
 };
@@ -41,21 +41,21 @@ struct Bounds {
 inline constexpr double impact_gain_spoken_of = 1e-3, impact_gain_bound = 1e-2;
 double impact_gain(const dynamics::Balance& balance) noexcept;
 
-/// What keeps impacts of this model from creating energy, in the words of a case file.
+/// The settings that keep impacts of this model from creating energy, in the words of a case file.
 std::string impact_cure(const dynamics::Model& model);
 
-/// What is said of the energy that impacts created, with its bound.
+/// The message on the energy that impacts created, with its bound.
 std::string created_by_impacts(const dynamics::Balance& balance, double bound, const Bounds& of);
 
-/// What is wrong with how a step found its contacts: a node that moved farther than sharp corners
+/// The fault in how a step found its contacts: a node that moved farther than sharp corners
 /// were looked for, one without mass that two facets hold, a contact that was found late. Empty:
 /// nothing.
 std::string contact_not_found(const dynamics::ContactReport& step);
 
-/// What is said where contact felt how the parts of the scheme "hati" were joined.
+/// The message where contact felt how the parts of the scheme "hati" were joined.
 std::string felt_joint();
 
-/// What is said of a loaded rim that turns by more than dynamics::most_turn in a step; empty: it
+/// The message on a loaded rim that turns by more than dynamics::most_turn in a step; empty: it
 /// does not. @param turn [rad] @param dt [s]
 std::string turned_too_far(double turn, double dt);
 
@@ -67,8 +67,8 @@ OutOfBound find_out_of_bound(const dynamics::Balance& balance, const ContactStat
 /// Name of the first quantity of the state that is not finite; `otherwise` if all are.
 std::string not_finite(const dynamics::State& state, const std::string& otherwise);
 
-/// What of a state /fields of results.h5, of single precision, cannot hold, with node and value;
-/// empty: nothing.
+/// The value of a state that /fields of results.h5, of single precision, cannot hold, with its
+/// node; empty: nothing.
 std::string beyond_files(const Setup& setup, const dynamics::State& state);
 std::string beyond_files(const CrushSetup& setup, const statics::CrushState& state);
 

@@ -15,7 +15,7 @@ struct AnalysisType {
   const char* unit;              ///< what is counted: "step"
   /// @throws InputError: the case cannot run so
   std::unique_ptr<Analysis> (*make)(const Case& c, const RunOptions& options);
-  FigureTable figures;  ///< of a row of a sweep's results.csv
+  FigureTable figures;  ///< figures of a row of a sweep's results.csv
   /// The figures without a directory, for members of a sweep that keep no snapshots: where writing
   /// it takes longer than the run. Null: its runs have directories. @throws InputError as a run
   DirectRun (*direct)(const Case& c, const RunOptions& options) = nullptr;
@@ -30,12 +30,12 @@ struct AnalysisType {
 
 struct CheckOptions {
   int threads = 0;               ///< 0: chosen by size
-  double trial_s = 0.2;          ///< of steps made to estimate `seconds`; 0: none, which is 0 then
-  SharedBody* shared = nullptr;  ///< as for build()
+  double trial_s = 0.2;          ///< time for steps to estimate `seconds`; 0: none, seconds = 0
+  SharedBody* shared = nullptr;  ///< shared body, as for build()
   bool columns = false;          ///< those of history.csv are wanted
 };
 
-/// What a case would cost and whether it can run, without running it. @throws InputError as a run
+/// The cost of a case and whether it can run, without running it. @throws InputError as a run
 /// would
 [[nodiscard]] CheckReport check_case(const Case& c, const CheckOptions& options);
 

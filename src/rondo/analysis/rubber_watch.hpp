@@ -11,7 +11,7 @@
 
 namespace rondo::study {
 
-/// Of what the steps miss of the forces, over the energy exchanged: above it is spoken of.
+/// Error of the forces' work, over the energy exchanged, above which summarise_rubber() warns.
 inline constexpr double integration_bound = 1e-2;
 
 /// The trouble, with cell and place. @param u (n) of about the step that it was seen in [m]
@@ -24,7 +24,7 @@ inline constexpr double integration_bound = 1e-2;
 void summarise_rubber(const dynamics::MaterialReport& last, double exchanged, Json& json,
                       RunReport& report);
 
-/// What it adds to run.json.
+/// Texts of the members that summarise_rubber() adds to run.json.
 std::vector<MemberText> rubber_members();
 
 }  // namespace rondo::study

@@ -10,7 +10,7 @@ class Analysis;
 /// @throws InputError (the case cannot run; nothing is left behind), FileError.
 [[nodiscard]] RunReport run_case(const Case& c, const RunOptions& options);
 
-/// The same of an analysis that is made already. @param c what it was made of, kept as case.toml
+/// Runs an analysis that is made already. @param c what it was made of, kept as case.toml
 [[nodiscard]] RunReport run_analysis(Analysis& analysis, const Case& c, const RunOptions& options);
 
 }  // namespace rondo::study

@@ -171,7 +171,7 @@ void RunSession::open_recorder() {
                   *recorder);
 }
 
-/// What a checkpoint goes on with is the case as it was then.
+/// Writes the case again: a checkpoint goes on with the case as it was then.
 void RunSession::keep_case() {
   if (!case_changed_ || !has_files()) return;
   write_case_file(analysis_.kept_case(case_), options_);
@@ -196,7 +196,7 @@ void RunSession::guarded(const std::function<void()>& work) {
   }
 }
 
-/// What is left after an error of files, and what can be done.
+/// Tells what is left after an error of files, and what can be done.
 std::string RunSession::what_is_kept() {
   const std::string kept = files_ ? files_->kept() : "what was there is kept";
   if (!analysis_.resumable()) return kept;

@@ -49,7 +49,7 @@ class RunSession {
   void interrupt() noexcept;
   /// Closes its files. To be called once. @throws FileError
   [[nodiscard]] RunReport finish();
-  /// What its case says from here on has changed: the next checkpoint, and the end, keep it so.
+  /// Tells that the case has changed from here on: the next checkpoint, and the end, keep it so.
   void case_changed() noexcept { case_changed_ = true; }
   /// run.json as far as it has come: complete after finish().
   [[nodiscard]] const Json& json() const noexcept { return json_; }
@@ -88,7 +88,7 @@ class RunSession {
   Json json_;
 };
 
-/// What a session itself adds to run.json, besides run_file_members() and what its analysis adds.
+/// Members that a session itself adds to run.json, besides run_file_members() and its analysis'.
 std::vector<MemberText> session_members();
 
 }  // namespace rondo::study

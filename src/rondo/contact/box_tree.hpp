@@ -35,7 +35,7 @@ class BoxTree {
  private:
   struct Run {
     std::size_t level, index;
-    double distance;  ///< of its box from x [m]
+    double distance;  ///< distance of the box from x [m]
   };
   static constexpr std::size_t pieces_of_leaf = 8;
 
@@ -46,8 +46,8 @@ class BoxTree {
   }
 
   std::size_t n_pieces_ = 0;
-  std::vector<std::vector<Box>> levels_;  ///< of the leaves first; the last has one box [m]
-  double round_off_ = 0.0;                ///< of distances [m]
+  std::vector<std::vector<Box>> levels_;  ///< boxes by level: leaves first, one box last [m]
+  double round_off_ = 0.0;                ///< round-off error of distances [m]
 };
 
 template <class Look>

@@ -12,7 +12,7 @@ namespace {
 /// Turns of the direction of sliding, at the most; a dozen are many.
 constexpr int most_turns = 200;
 
-/// Of W, the normal being the first row.
+/// The blocks of W, whose first row is the normal's.
 struct Blocks {
   double nn;
   Vec2 nt, tn;  ///< W_nt, W_tn

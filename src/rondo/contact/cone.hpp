@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The law of contact (law.hpp) with two tangential directions, in a contact frame whose x
-/// is the normal (docs/wheel3d.md): the impulse is found by turns that are exact once they stand
-/// still, and judged by a residual that knows nothing of them.
+/// is the normal (docs/wheel3d.md). Iterations turn the direction of sliding, and are exact once it
+/// stands still; a residual that does not depend on them judges the impulse that they find.
 #pragma once
 #include <array>
 
@@ -18,9 +18,9 @@ struct SpatialProblem {
 };
 
 struct SpatialSolution {
-  Vec3 impulse;  ///< of the ground on the node                                      [N·s]
+  Vec3 impulse;  ///< impulse of the ground on the node                              [N·s]
   Status status = Status::open;
-  int turns = 0;  ///< of the direction of sliding
+  int turns = 0;  ///< iterations, each of which turns the direction of sliding
   bool converged = true;
 };
 

@@ -90,7 +90,7 @@ Sliding sliding(const SpatialPair& p, double friction, Vec2 w, double along) noe
           total.z - part.x * a.y - part.y * b.y};
 }
 
-/// What is left rises with the velocity along the corner, beyond all bounds.
+/// Sliding::left rises with the velocity along the corner, beyond all bounds.
 void slides(const SpatialPair& p, SpatialChoice& choice) noexcept {
   constexpr int most_doublings = 60, most_halvings = 200;
   const Vec2 w{-p.bounce[0], (p.turn.re * p.bounce[0] - p.bounce[1]) / p.turn.im};

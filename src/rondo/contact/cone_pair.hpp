@@ -12,7 +12,7 @@ namespace rondo::contact {
 struct SpatialPair {
   Vec3 free;                       ///< relative velocity without impulses, frame 0     [m/s]
   std::array<Vec3, 3> delassus{};  ///< rows of W of the node, frame 0                 [1/kg]
-  std::array<double, 2> bounce{};  ///< as in SpatialProblem                            [m/s]
+  std::array<double, 2> bounce{};  ///< ε of each contact, see SpatialProblem           [m/s]
   Complex turn;                    ///< takes frame 1 to frame 0; not ±1
 };
 

@@ -11,9 +11,9 @@
 
 namespace rondo::contact {
 
-/// What a friction law may depend on: one contact as the step before has left it.
+/// State of one contact, as the step before has left it: a friction law may depend on it.
 struct SlidingState {
-  Vec3 place;         ///< of the contact at t_{n+1}, axes of the ground                  [m]
+  Vec3 place;         ///< place of the contact at t_{n+1}, in the axes of the ground     [m]
   double slip = 0.0;  ///< |w_t⁻|, the slip speed of the step before                      [m/s]
   double pressure = 0.0;  ///< r_n/(Δt ℓ) of the step before; 0 where it was open, or ℓ is 0  [Pa]
 };

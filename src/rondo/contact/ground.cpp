@@ -27,7 +27,7 @@ double turn_at(const std::vector<Vec2>& p, std::size_t i) {
   return std::atan2(cross(a, b), dot(a, b));
 }
 
-constexpr double farthest = 1e100;  ///< of points and radii: their products are in range [m]
+constexpr double farthest = 1e100;  ///< limit of points and radii: their products are in range [m]
 
 /// Length that the fillet at point i takes from each of the segments beside it.
 double fillet_reach(const GroundShape& shape, std::size_t i) {
@@ -260,7 +260,7 @@ std::size_t Ground::nearest(Vec2 x, Projection& projection) const noexcept {
     boxes_.each_near(x, look);
   else
     for (std::size_t k = first + 1; k < last; ++k) look(k);
-  // Where a corner itself is nearest, both facets are equally far, and the point may be on the
+  // If a corner itself is nearest, both facets are equally far, and the point may be on the
   // wrong side of the line of one: it is outside a convex corner if it is before either facet,
   // inside a concave one if it is behind either.
   const auto at_corner = [&](std::size_t other, bool convex) {

@@ -15,7 +15,7 @@
 
 namespace rondo::contact {
 
-/// What the user gives. The end segments go on for ever.
+/// The shape of the ground that the user gives. Its end segments go on for ever.
 struct GroundShape {
   std::vector<Vec2> profile{{-1.0, 0.0}, {1.0, 0.0}};  ///< (>= 2) corners, left to right    [m]
   double fillet = 0.0;                                 ///< radius at convex corners, 0: sharp [m]
@@ -39,9 +39,9 @@ inline constexpr double blunt_turn = 0.01;
 /// (docs/theory.md, 4.1).
 struct Corner {
   Vec2 position;                ///< a sharp corner, or the middle of an arc              [m]
-  std::array<Vec2, 2> normals;  ///< of the facets before and after it, out of the solid
-  Vec2 center{};                ///< of the arc                                           [m]
-  double radius = 0.0;          ///< of the arc; 0: sharp                                 [m]
+  std::array<Vec2, 2> normals;  ///< normals of the facets before and after it, out of the solid
+  Vec2 center{};                ///< center of the arc                                    [m]
+  double radius = 0.0;          ///< radius of the arc; 0: sharp                          [m]
 };
 
 /// The bend's point that a straight side of a body meets first, the deepest one inside it.
@@ -133,7 +133,7 @@ class Ground {
   /// How the surface turns: by angles > 0 at its bends, < 0 where it is concave.
   struct Turn {
     double angle;   ///< [rad]
-    double length;  ///< of the surface before it [m]
+    double length;  ///< length of the surface before the bend [m]
   };
   [[nodiscard]] double length_so_far() const noexcept;
   void add_segment(const GroundShape& shape, std::size_t i);
@@ -142,7 +142,7 @@ class Ground {
 
   std::vector<Facet> facets_;
   std::vector<double> begins_;  ///< (n_facets) x of their beginnings [m]
-  BoxTree boxes_;               ///< of the facets
+  BoxTree boxes_;               ///< bounding boxes of the facets
   std::vector<Corner> bends_, corners_;
   double spacing_ = 0.0, bend_reach_ = 0.0;               ///< [m]
   double top_ = std::numeric_limits<double>::infinity();  ///< [m]

@@ -26,7 +26,7 @@ class Chords {
     double passed = 0.0;  // of the piece, to where the next one begins
     for (std::size_t i = 0; i + 1 < line_.size(); ++i) {
       const Vec2 piece = line_[i + 1] - line_[i];
-      // What begins before the last spacing of a piece ends on it too.
+      // A chord that begins before the last spacing of a piece also ends on that piece.
       double left = std::min(norm(piece) - passed, spacing_);
       for (; left > 0.0; left -= step * spacing_)
         look_from({line_[i + 1] - left / norm(piece) * piece, i});
@@ -50,7 +50,7 @@ class Chords {
     }
   }
 
-  /// Where the way from a, which is inside, to b leaves the circle.
+  /// The point where the way from a, which is inside, to b leaves the circle.
   [[nodiscard]] Vec2 on_circle(Vec2 center, Vec2 a, Vec2 b) const {
     const Vec2 d = b - a, o = a - center;
     const double p = dot(d, o) / dot(d, d), q = (dot(o, o) - spacing_ * spacing_) / dot(d, d);

@@ -24,7 +24,7 @@ struct Intrusion {
 /// Depths below this share of the spacing of the nodes are as good as none.
 inline constexpr double least_hidden = 0.02;
 
-/// What of the ground may stand inside a body whose contact is at its nodes alone.
+/// The deepest obstacles of the ground in a body whose contact is at its nodes alone.
 struct Hidden {
   Intrusion deepest;  ///< between two nodes that both lie on the ground
   /// The deepest obstacle that stands between them as a whole: where they lie the ground runs along

@@ -11,8 +11,8 @@ namespace rondo::contact {
 /// Which normal velocity an impact ends with (docs/theory.md, 4.3).
 enum class Impact {
   moreau,       ///< w_n = -e w_n⁻, whether the node arrives or leaves
-  energy_safe,  ///< as Moreau's for a node that arrives; one that leaves is sent back as fast at
-                ///< the most. r_n > 0 then means w̄_n <= 0: no impact does work on the body
+  energy_safe,  ///< like moreau for a node that arrives; a node that leaves returns at most
+                ///< as fast. r_n > 0 then means w̄_n <= 0: no impact does work on the body
 };
 
 struct Law {

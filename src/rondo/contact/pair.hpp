@@ -11,7 +11,7 @@ namespace rondo::contact {
 /// Unknowns are two impulses, each in its own contact frame.
 struct PairProblem {
   std::array<Vec2, 2> free;          ///< relative velocities without impulses              [m/s]
-  std::array<double, 2> bounce{};    ///< as in LocalProblem                                [m/s]
+  std::array<double, 2> bounce{};    ///< ε of each contact, see LocalProblem               [m/s]
   Complex delassus;                  ///< W of the node, the same in both frames            [m/kg]
   Complex turn;                      ///< conj(n_0) n_1: takes frame 1 to frame 0; not ±1
   std::array<double, 2> friction{};  ///< μ >= 0 of each contact                              [-]

@@ -48,7 +48,7 @@ class SegmentGrid {
   std::vector<Vec2> built_at_;   ///< (edges, 2) positions of their nodes at the build  [m]
   std::vector<int> cell_start_;  ///< (cells + 2)
   std::vector<int> cell_edges_;  ///< edges of each cell, ascending
-  Vec2 low_, high_;              ///< of the grid                                       [m]
+  Vec2 low_, high_;              ///< lower left and upper right corner of the grid     [m]
   double inverse_cell_ = 0.0;    ///< [1/m]
   int columns_ = 0, rows_ = 0;
   double margin_ = -1.0, skin_ = -1.0;  ///< [m]

@@ -15,7 +15,7 @@ Vec2 unit(Vec2 a) noexcept {
   return a / norm(a);
 }
 
-/// Where the foot lies on the line, without a look at the ends.
+/// The touch at the foot of p on the line through a and b, even if the foot is beyond the ends.
 SegmentTouch line_touch(Vec2 p, Vec2 a, Vec2 b) noexcept {
   const Vec2 along = b - a;
   const double length = norm(along);

@@ -21,9 +21,9 @@ struct SegmentTouch {
 
 /// A segment and the points that its boundary goes on to.
 struct Segment {
-  Vec2 before;  ///< of the segment that ends at a; a itself where there is none   [m]
+  Vec2 before;  ///< begin of the segment that ends at a; a itself where there is none [m]
   Vec2 a, b;    ///<                                                               [m]
-  Vec2 after;   ///< of the segment that begins at b; b itself where there is none [m]
+  Vec2 after;   ///< end of the segment that begins at b; b itself where there is none [m]
 };
 
 /// The point is behind the segment's line (gap <= 0), no farther than `deepest` [m] from the
@@ -44,8 +44,8 @@ struct Boundary {
   std::vector<int> body;                   ///< (n) number of the edge's body
 };
 
-/// Where several edges begin, or several end, at a node, none is a neighbour there (two bodies, or
-/// parts of one, that hang together at the node alone).
+/// Where several edges begin or several edges end at a node, no edge is a neighbour (two bodies, or
+/// two parts of one body, that are joined at this node alone).
 /// @param body_of_node number of each node's body; empty: there is one
 Boundary make_boundary(std::vector<std::array<int, 2>> edges, std::span<const int> body_of_node);
 
@@ -67,16 +67,16 @@ struct EdgeTouches {
 struct BoundaryPoint {
   Vec2 position;      ///< [m]
   int node = -1;      ///< edges of this node do not count; -1: not a node
-  int body = -1;      ///< of that node
+  int body = -1;      ///< number of the body of that node
   bool self = false;  ///< edges of its own body count
   /// In place of the position, the point of this bend of the ground that an edge meets first.
   const Corner* bend = nullptr;
 };
 
-/// What the point may touch.
+/// The edges of the boundary that the point may touch.
 struct BoundaryQuery {
   const Boundary& boundary;
-  std::span<const Vec2> positions;  ///< of the nodes                       [m]
+  std::span<const Vec2> positions;  ///< positions of the nodes             [m]
   std::span<const int> candidates;  ///< edges, ascending
   double deepest = 0.0;             ///< see touch_segment                  [m]
 };

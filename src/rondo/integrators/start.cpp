@@ -41,7 +41,7 @@ void set_free(const Model& model, std::span<const Vec> values, std::span<Vec> fi
   for_free_nodes(model, [&](std::size_t k) { field[k] = values[k]; });
 }
 
-/// The same of a material of its own: its force, and the rate of it by its own damping.
+/// The start forces of a material of its own: its force, and the rate of it by its own damping.
 void find_own_start_forces(const Model& model, State& state) {
   const std::span<const Vec2> u = state.u.plane(), v = state.v.plane();
   std::vector<Vec2> before(u.begin(), u.end());
@@ -80,7 +80,7 @@ void start_body(const Model& model, std::span<const Vec2> load, State& state) {
   });
 }
 
-/// The same of a body on a loaded rim (10.6): v_{1/2} is what the absolute velocities leave.
+/// The start of a body on a loaded rim (10.6): v_{1/2} is what the absolute velocities leave.
 void start_wheel(const Model& model, std::span<const Vec2> load, State& state) {
   LoadedRim rim(model);
   const Vec2 center_velocity = rim.velocity(), gravity = model.motion.gravity_at(0.0);

@@ -20,7 +20,7 @@ struct Progress {
   long long done = 0, all = 0;
 };
 
-/// What `rondo check` says of a case, and a sweep of its members.
+/// The report of `rondo check` on a case, and of a sweep on its members.
 struct CheckReport {
   std::size_t nodes = 0, elements = 0, dofs = 0, candidates = 0;
   int bodies = 1, free_bodies = 0;
@@ -29,12 +29,12 @@ struct CheckReport {
   std::size_t snapshots = 0;
   std::size_t memory_bytes = 0;  ///< estimated
   std::size_t disk_bytes = 0;    ///< estimated
-  double seconds = 0.0;  ///< of all steps, estimated from some made here; 0: not estimated [s]
+  double seconds = 0.0;  ///< time of all steps, estimated from some made here; 0: not estimated [s]
   int threads = 1;
   /// Further lines, what is told and its value, in the words of the analysis.
   std::vector<std::pair<std::string, std::string>> lines;
   std::vector<std::string> warnings;
-  std::vector<ColumnLabel> columns;  ///< of history.csv, where they were asked for
+  std::vector<ColumnLabel> columns;  ///< columns of history.csv, where they were asked for
 };
 
 /// An analysis that can go on from a checkpoint to the same bits.
@@ -45,7 +45,7 @@ class Resumable {
   /// there is none yet. Called at most once, before begin(). @throws InputError: of another run;
   /// FileError
   [[nodiscard]] virtual const Checkpoint* find(const std::filesystem::path& directory) = 0;
-  /// As it stands between two calls of advance(), but for times and files.
+  /// The analysis as it stands between two calls of advance(), but for times and files.
   [[nodiscard]] virtual Checkpoint save() const = 0;
 };
 
@@ -62,12 +62,12 @@ class Analysis {
   /// @param trial time to spend on steps, for `seconds` [s] @throws InputError as a run would
   [[nodiscard]] virtual CheckReport check(double trial) = 0;
   [[nodiscard]] virtual RecordPlan record_plan() const = 0;
-  /// What takes long and may still refuse the case. @throws InputError
+  /// Does what takes long and may still refuse the case. @throws InputError
   virtual void prepare() {}
   [[nodiscard]] virtual std::vector<std::string> warnings() const = 0;
   /// Adds to run.json what is known before the first step.
   virtual void describe(Json& json) const = 0;
-  /// As the results directory keeps it.
+  /// The case as the results directory keeps it.
   [[nodiscard]] virtual Case kept_case(const Case& c) const { return c; }
   /// Null: it keeps no checkpoints.
   [[nodiscard]] virtual Resumable* resumable() noexcept { return nullptr; }
@@ -80,7 +80,7 @@ class Analysis {
   /// Some steps, as few as a signal can wait for, or an increment: rows and snapshots to the
   /// recorder.
   virtual Progress advance(Recorder& recorder) = 0;
-  /// What is wrong since the last call of advance() or close(), with its place; none: all is well.
+  /// The trouble since the last call of advance() or close(), with its place; none: all is well.
   [[nodiscard]] virtual const std::optional<std::string>& trouble() const = 0;
   /// The row of the last step where none was due; else empty. It is not part of a checkpoint.
   [[nodiscard]] virtual std::vector<double> last_row() { return {}; }

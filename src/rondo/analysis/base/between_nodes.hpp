@@ -26,7 +26,7 @@ class BetweenNodes {
   const dynamics::Model& model_;
   GroundFrame ground_;
   bool watches_ = false;  ///< some bend hides more than the least that counts
-  double radius_ = 0.0;   ///< of the candidates around the center, with a half more      [m]
+  double radius_ = 0.0;   ///< 1.5 times that of the candidates around the center         [m]
 };
 
 }  // namespace rondo::study

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t bytes_of_a_number = 21;  ///< in a CSV file, with its comma
-constexpr std::size_t bytes_of_a_field = 600;  ///< of a snapshot in fields.xdmf
+constexpr std::size_t bytes_of_a_field = 600;  ///< one field of a snapshot in fields.xdmf
 constexpr std::size_t small_files = 20'000;    ///< case.toml, run.json
 constexpr std::size_t checkpoints = 2;         ///< the new one is written beside the old
 
@@ -45,7 +45,7 @@ fs::path existing(const fs::path& directory) {
   return at;
 }
 
-/// Of what is in the directory already: replaced, or gone on with. A run that is gone on with has
+/// Bytes that the directory has already: replaced, or gone on with. A run that is gone on with has
 /// its results.h5 twice while the kept snapshots are copied.
 std::size_t bytes_there(const RunOptions& options) {
   std::size_t bytes = 0;

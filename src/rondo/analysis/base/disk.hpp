@@ -8,10 +8,10 @@
 
 namespace rondo::study {
 
-/// What a run writes [B]; estimated but for results.h5.
+/// Size of what a run writes [B]; estimated but for results.h5.
 struct DiskNeed {
   std::size_t all = 0;           ///< checkpoints included
-  std::size_t largest_file = 0;  ///< of the files that grow
+  std::size_t largest_file = 0;  ///< largest of the files that grow
 };
 
 /// @param keeps_checkpoints the analysis does

@@ -19,7 +19,7 @@ inline constexpr double small_strain = 0.10;
 /// one every so many steps at the least, and at snapshots that are so far apart.
 inline constexpr long long steps_between_looks = 250, steps_between_snapshot_looks = 100;
 
-/// It hangs on the step and the snapshots alone: a run that goes on looks at the same ones.
+/// It depends on the step and the snapshots alone: a run that goes on looks at the same ones.
 /// @param snapshot one is taken at this step @param before step of the last one; -1: none
 [[nodiscard]] bool is_look(long long step, bool snapshot, long long before) noexcept;
 
@@ -61,7 +61,7 @@ class StrainWatch {
   fem::LargestDeformation largest_;
 };
 
-/// What summarise() adds to run.json.
+/// Texts of the members that summarise() adds to run.json.
 std::vector<MemberText> strain_members();
 
 }  // namespace rondo::study

@@ -34,7 +34,7 @@ void place_free_bodies(const Case& c, mesh::Mesh& mesh, dynamics::Model& model);
 
 /// Motion of a free body at t = 0.
 struct RigidMotion {
-  Vec2 velocity;                  ///< of the center of mass             [m/s]
+  Vec2 velocity;                  ///< velocity of the center of mass    [m/s]
   double angular_velocity = 0.0;  ///< about it, > 0 clockwise            [rad/s]
 };
 

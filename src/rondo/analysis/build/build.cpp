@@ -31,7 +31,7 @@ namespace rondo::study {
 
 namespace {
 
-/// What the candidates may touch: the ground, and bodies.
+/// Adds what the candidates may touch: the ground, and bodies.
 void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
   if (c.ground)
     model.contact.emplace(dynamics::ContactModel{
@@ -44,7 +44,7 @@ void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model)
                                  between.between == BodyContact::all, law_of(between)});
 }
 
-/// What is held feels no pressure.
+/// Refuses a curve whose nodes are all held: it feels no pressure.
 void refuse_held_curve(const Case& c, const mesh::Mesh& mesh, const std::string& key,
                        const std::string& name, const std::vector<mesh::Edge>& edges) {
   const std::vector<char> held = mesh::clamped_flags(mesh);
@@ -101,7 +101,7 @@ void make_model(const Case& c, Setup& s) {
   add_rubber(c, s);
 }
 
-/// What does not change the body: see body_key().
+/// Sets what does not change the body: see body_key().
 void set_motion_and_friction(const Case& c, dynamics::Model& model) {
   model.mass_damping = c.damping.mass;
   model.motion = c.motion;
@@ -151,7 +151,7 @@ void choose_threads(Setup& s, int asked) {
 
 namespace {
 
-/// Of what is explicit.
+/// Chooses the step of what is explicit.
 double choose_step(const Case& c, const dynamics::CriticalStep& critical) {
   if (std::isinf(critical.step)) {  // nothing is explicit
     if (c.time.step) return *c.time.step;
@@ -188,7 +188,7 @@ dynamics::CriticalStep body_step(const Setup& s, dynamics::LaggedDamping damping
                                  bound / least_mass_share(m), m.threads);
 }
 
-/// As if contact nodes had their mass.
+/// The critical step as if contact nodes had their mass.
 double plain_step(const Setup& s, dynamics::LaggedDamping damping) {
   const dynamics::Model& m = s.model;
   return dynamics::critical_step(m.stiffness, m.lumped_mass, m.free, damping,
@@ -197,7 +197,7 @@ double plain_step(const Setup& s, dynamics::LaggedDamping damping) {
       .step;
 }
 
-/// Of what is explicit.
+/// The critical step of what is explicit.
 dynamics::CriticalStep find_critical_step(const Case& c, Setup& s) {
   const bool lagged = c.time.scheme == Scheme::as_printed || c.rim;
   const dynamics::LaggedDamping damping{c.damping.stiffness, lagged ? c.damping.mass : 0.0};
@@ -208,7 +208,7 @@ dynamics::CriticalStep find_critical_step(const Case& c, Setup& s) {
   return s.model.rim ? step_with_rim(s.model, held, damping) : held;
 }
 
-/// As stiff as the body is at once: with its viscous branches.
+/// The critical step of the body as stiff as it is at once: with its viscous branches.
 dynamics::CriticalStep find_step_at_once(const Case& c, Setup& s) {
   if (!fem::has_branches(s.materials)) return find_critical_step(c, s);
   std::vector<fem::Material> materials = fem::instantaneous(s.materials);

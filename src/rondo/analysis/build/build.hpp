@@ -10,13 +10,13 @@
 
 namespace rondo::study {
 
-/// What runs one after the other share as long as only friction, motion, mass damping, times and
+/// Runs one after the other share this as long as only friction, motion, mass damping, times and
 /// output differ: mesh, masses, stiffness, critical step, the last stationary state. A run built
 /// from it has the same bits as one built alone.
 struct SharedBody {
   std::string key;  ///< the case without what may differ; empty: none yet
   Setup setup;
-  double spin = 0.0;  ///< of the stationary state [rad/s]
+  double spin = 0.0;  ///< spin of the stationary state [rad/s]
   Field stationary;   ///< (n) empty: none yet [m]
   std::any other;     ///< what an analysis keeps instead, of a type of its own
 };
@@ -42,16 +42,16 @@ inline constexpr std::size_t harmonic_setup_dofs = 200000;
 /// Degrees of freedom that move: of a node two or, of a wheel in three dimensions, three.
 std::size_t count_dofs(const dynamics::Model& model);
 
-/// As many as asked for, or chosen by size for 0, as far as the model's parts allow.
+/// Sets the threads asked for, or chosen by size for 0, as far as the model's parts allow.
 void choose_threads(Setup& s, int asked);
 
 /// Parts that no cell joins.
 int count_bodies(const dynamics::Model& model);
 
-/// What can be done harmonic by harmonic is.
+/// Whether what can be done harmonic by harmonic is done so.
 bool by_harmonics(const dynamics::Model& model);
 
-/// Nodes that move in the turning frame, ascending.
+/// Nodes that move in the co-rotating frame, ascending.
 std::vector<int> held_nodes(const dynamics::Model& model);
 
 /// @param threads 0: chosen by size. @throws InputError: what build_mesh() says, step above the

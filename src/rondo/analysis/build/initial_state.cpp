@@ -16,7 +16,7 @@
 namespace rondo::study {
 namespace {
 
-/// Of rubber at finite strain, else by K.
+/// Finds the stationary state of rubber at finite strain, else that by K.
 statics::StationarySpin find_stationary(const Setup& s, double spin) {
   const dynamics::Model& m = s.model;
   if (s.rubber)
@@ -26,7 +26,7 @@ statics::StationarySpin find_stationary(const Setup& s, double spin) {
   return statics::stationary_spin(m.stiffness, m.mass, m.reference, held_nodes(m), spin);
 }
 
-/// Of what is held; free bodies stay as they are.
+/// Sets the stationary state of what is held; free bodies stay as they are.
 void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
   const double spin = -c.motion.angular_velocity.at(0.0);
   if (shared && !shared->stationary.empty() && shared->spin == spin) {
@@ -82,7 +82,7 @@ Depth deepest_start(const Setup& s, const std::vector<double>& size, const std::
   return depth;
 }
 
-/// What to do about a start inside the ground. @param free the body is
+/// The advice for a start inside the ground. @param free the body is
 std::string other_start(const Case& c, bool free) {
   if (free) return "start above the ground (initial.position, initial.turn)";
   return c.rim && c.rim->free_y

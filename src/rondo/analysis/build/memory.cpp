@@ -20,7 +20,7 @@
 namespace rondo::study {
 namespace {
 
-/// Of a node, in a start in steady rolling: samples and harmonics of its displacement, twice.
+/// Numbers of a node to start in steady rolling: samples and harmonics of its displacement, twice.
 constexpr std::size_t rolling_numbers = 64;
 
 }  // namespace
@@ -40,7 +40,7 @@ bool has_wide_rows(const Case& c, const mesh::Mesh& mesh) noexcept {
 }
 
 std::size_t stiffness_memory(std::size_t nodes, bool wide_rows) noexcept {
-  // Of a node of a grid of quadrilaterals; of triangles 19, and the means that they come from.
+  // Blocks of a node of quadrilaterals; triangles have 19, and the means that they come from.
   const std::size_t blocks = wide_rows ? 30 : 9;
   return nodes * 2 * blocks * (4 * sizeof(double) + sizeof(int));
 }
@@ -51,7 +51,7 @@ std::size_t factor_memory(std::size_t dofs, bool wide_rows) noexcept {
   return static_cast<std::size_t>(bytes_per_entry * n * std::log2(n));
 }
 
-/// Of contact nodes without mass: columns of K_cc⁻¹, of which RingMatrix keeps so many.
+/// Memory for contact nodes without mass: columns of K_cc⁻¹, of which RingMatrix keeps so many.
 static std::size_t ring_memory(std::size_t candidates) noexcept {
   return std::min(candidates * candidates * 4 * sizeof(double),
                   dynamics::RingMatrix::column_memory);
@@ -108,7 +108,7 @@ std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) {
                       std::min(snapshots, queue_length(snapshots, of_a_snapshot)) * of_a_snapshot;
   if (!sector_alone) bytes += stiffness_memory(nodes, wide_rows);
   if (factorised) bytes += factor_memory(harmonics ? of_a_sector : 2 * nodes, wide_rows);
-  // Of the scheme "hati": K of its parts, and the factor of the implicit one, not symmetric.
+  // The scheme "hati" has K of its parts, and the factor of the implicit one, not symmetric.
   if (c.hati) bytes += stiffness_memory(nodes, wide_rows) + 2 * factor_memory(2 * nodes, wide_rows);
   if (c.initial.state == InitialState::steady_rolling)
     bytes += nodes * rolling_numbers * sizeof(double);

@@ -8,19 +8,19 @@
 
 namespace rondo::study {
 
-/// Of the program, mesh, fields, a checkpoint and what is written: the least of any analysis [B].
+/// Memory of the program, mesh, fields, a checkpoint and files: the least of any analysis [B].
 std::size_t mesh_memory(std::size_t nodes) noexcept;
 /// Triangles with a mean dilatation at the nodes couple a node with neighbours of neighbours.
 bool has_wide_rows(const Case& c, const mesh::Mesh& mesh) noexcept;
-/// Of the assembled stiffness, held twice while it is assembled [B].
+/// Memory of the assembled stiffness, held twice while it is assembled [B].
 std::size_t stiffness_memory(std::size_t nodes, bool wide_rows) noexcept;
-/// Of a Cholesky factor of a plane mesh, which fills in about n log2 n [B].
+/// Memory of a Cholesky factor of a plane mesh, which fills in about n log2 n [B].
 std::size_t factor_memory(std::size_t dofs, bool wide_rows) noexcept;
 
-/// Of cells of rubber, their branches, and the matrices that come with them; 0: there are none [B].
+/// Memory of cells of rubber, their branches, and the matrices that come with them; 0: none [B].
 std::size_t rubber_memory(const Case& c, const mesh::Mesh& mesh);
 
-/// Of motion in time; large disks go without an assembled stiffness [B].
+/// Memory of motion in time; large disks go without an assembled stiffness [B].
 std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh);
 
 /// @param needed [B] @throws InputError at the key that makes the mesh so large: this process may

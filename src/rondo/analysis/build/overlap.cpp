@@ -180,7 +180,7 @@ class Overlaps {
   double round_off_ = 0.0;     ///< [m]
   std::vector<mesh::Edge> edges_;
   std::optional<mesh::CellGrid> grid_;
-  double deepest_ = 0.0;  ///< of what is allowed [m]
+  double deepest_ = 0.0;  ///< deepest overlap that is allowed [m]
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 namespace rondo::study {
 
-/// Where the bodies of a mesh start.
+/// Places of the bodies of a mesh at the start.
 struct PlacedBodies {
   const mesh::Mesh& mesh;
   std::span<const Vec2> x;       ///< (n) fixed frame [m]

@@ -54,8 +54,8 @@ struct Tell {
   std::vector<std::string>& warnings;
 };
 
-/// What the wall is pressed in by, and about how hard: as a layer on a rim, E/(1 - ν²) times that
-/// over its thickness.
+/// Tells how far the wall is pressed in, and about how hard: as a layer on a rim, E/(1 - ν²) times
+/// that way over its thickness.
 /// @param key that says how far
 void tell_deflection(const std::string& key, double deflection, const Wall& wall,
                      const fem::Material& m, const Tell& to) {
@@ -105,7 +105,7 @@ void tell_slip(const Case& c, double radius, const Tell& to) {
                     both_move.high == worst ? both_move.high : both_move.low, radius, si));
 }
 
-/// Of what may touch, and of the rim [m/s].
+/// Largest speed of the free nodes at the start, and of the rim [m/s].
 double fastest(const Case& c, const Setup& s, double radius) {
   double speed = 0.0;
   for (const int node : s.model.free)

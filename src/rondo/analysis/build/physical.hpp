@@ -11,26 +11,26 @@
 
 namespace rondo::study {
 
-// What is warned of, beyond what any body of rubber, plastic, metal or foam does.
-inline constexpr double fast_share = 0.5;      ///< of the slowest shear wave
+// Bounds that no body of rubber, plastic, metal or foam passes: beyond them there is a warning.
+inline constexpr double fast_share = 0.5;      ///< share of the slowest shear wave
 inline constexpr double deep_share = 0.2;      ///< deflection over thickness
 inline constexpr double wide_slip = 0.5;       ///< |slip ratio| where rim and center both move
 inline constexpr double slow_sound = 5.0;      ///< sqrt(E/ρ) [m/s]
 inline constexpr double fast_sound = 3e4;      ///< sqrt(E/ρ) [m/s]
-inline constexpr double least_density = 10.0;  ///< of a material of at least soft_modulus [kg/m3]
+inline constexpr double least_density = 10.0;  ///< for a material of at least soft_modulus [kg/m3]
 inline constexpr double soft_modulus = 1e4;    ///< [Pa]
 inline constexpr double largest_density = 2.5e4;  ///< [kg/m3]
 inline constexpr double largest_size = 10.0;      ///< half the length of the mesh [m]
-inline constexpr double least_size = 1e-4;        ///< likewise [m]
+inline constexpr double least_size = 1e-4;        ///< half the length of the mesh [m]
 
-/// Of a round body on a rim: outer radius, and how much of it is not rim [m].
+/// A round body on a rim: outer radius, and how much of it is not rim [m].
 struct Wall {
   double radius = 0.0, thickness = 0.0;
 };
 /// None where nothing is held, or it is not round.
 [[nodiscard]] std::optional<Wall> wall_of(const mesh::Mesh& mesh);
 
-/// Of materials and size alone: modes as well.
+/// Warns of materials and size alone: before modes as well.
 void warn_of_units(const Case& c, const mesh::Mesh& mesh,
                    const std::vector<fem::Material>& materials, std::vector<std::string>& warnings);
 
@@ -43,8 +43,8 @@ struct PhysicalFigures {
 void tell_physical_figures(const Case& c, Setup& s);
 /// With those of units.
 void tell_physical_figures(const Case& c, CrushSetup& s);
-/// Of steady rolling, what is given of it: no deflection under a load, no slip ratio under a
-/// traction or torque. But those of units.
+/// Tells the figures that a steady case gives: no deflection under a load, no slip ratio under a
+/// traction or torque, and no warnings of units.
 void tell_physical_figures(const Case& c, const mesh::Mesh& mesh,
                            const std::vector<fem::Material>& materials, PhysicalFigures& told);
 

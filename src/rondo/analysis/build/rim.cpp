@@ -14,7 +14,7 @@ namespace {
 
 using dynamics::RimBody;
 
-/// Of the clamped nodes, about the origin.
+/// Sums over the clamped nodes, about the origin.
 struct Bonded {
   double mass = 0.0;     ///< [kg/m]
   double inertia = 0.0;  ///< [kg·m]

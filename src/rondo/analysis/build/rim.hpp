@@ -21,7 +21,7 @@ dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
                                      const dynamics::CriticalStep& held,
                                      dynamics::LaggedDamping damping);
 
-/// The same by another product with K, on any body: the rim meets each frequency of it.
+/// Does the same by another product with K, on any body: the rim meets each frequency of it.
 dynamics::CriticalStep step_with_rim(const dynamics::Model& model,
                                      const dynamics::StiffnessProduct& product,
                                      const dynamics::CriticalStep& held,

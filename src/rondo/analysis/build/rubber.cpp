@@ -18,7 +18,7 @@ constexpr double resolved_steps = 4.0;
 /// A table that describes a rubber.
 struct Described {
   std::string table;  ///< "material", "material.region[1]"
-  std::string name;   ///< of the part; empty: [material]
+  std::string name;   ///< name of the part; empty: [material]
   const MaterialLaw& law;
   const fem::Material& material;
 };
@@ -78,7 +78,7 @@ bool inherits_branches(const Case& c, const Described& d) {
   return !d.name.empty() && d.law.model == c.law.model && d.law.viscosity == c.law.viscosity;
 }
 
-/// Where its branch stands in the case.
+/// The key of a branch's time in the case.
 std::string time_key(const Described& d, std::size_t branch) {
   const bool listed = d.name.empty();
   return listed ? item_of("material.viscosity", branch) + ".time" : d.table + ".viscosity";

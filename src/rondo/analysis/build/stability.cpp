@@ -75,7 +75,7 @@ std::string beyond_softening(const Case& c, double spin, Interval omega) {
                     "material.stress_stiffening = \"centrifugal\"");
 }
 
-/// Of a sector, where the check goes by harmonics; else 0.
+/// Degrees of freedom of a sector, where the check goes by harmonics; else 0.
 std::size_t harmonic_dofs(const dynamics::Model& m) {
   if (m.solid) return 3 * m.solid->sector.n_local();
   return by_harmonics(m) ? 2 * m.sector->n_local() : 0;
@@ -217,7 +217,7 @@ void refuse_large_turns(const Case& c, const Setup& s) {
                    fmt::format("at most {:.4g} rad/s with this step", largest_turn / s.model.dt));
 }
 
-/// Of what may touch, at the start and by the motion of the rim [m/s].
+/// Largest speed of what may touch, at the start and by the motion of the rim [m/s].
 double largest_speed(const Case& c, const Setup& s) {
   double initial = 0.0, radius = 0.0;
   for (const int node : s.mesh.boundary) {

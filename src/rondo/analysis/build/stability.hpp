@@ -30,7 +30,7 @@ bool softening_is_checked(std::size_t dofs, std::size_t harmonic_dofs) noexcept;
 /// @pre all else of the setup is there
 void check_stability(const Case& c, Setup& s);
 
-/// The motion of the rim alone, and what of a step hangs on it. @throws InputError
+/// Checks the motion of the rim alone, and what of a step depends on it. @throws InputError
 void check_motion(const Case& c, const Setup& s);
 /// Adds a warning where the largest spin is beyond the softening limit, or near it.
 void warn_of_softening(const Case& c, Setup& s);

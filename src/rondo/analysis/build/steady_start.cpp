@@ -15,7 +15,7 @@ namespace {
 
 using RollingHarmonics = statics::RollingHarmonics<2>;
 
-/// Of a column's pass: as rough as a run, whose nodes come down one by one.
+/// Samples of a column's pass: as rough as a run, whose nodes come down one by one.
 constexpr int samples_of_a_column = 4;
 
 /// At t = 0, counter-clockwise.
@@ -77,7 +77,7 @@ std::vector<Vec2> nodal(const Setup& s, const Eigen::MatrixXd& of_samples, doubl
   return field;
 }
 
-/// What touches stays on the ground in the first step: between its samples the sum of harmonics
+/// Keeps what touches on the ground in the first step: between its samples the sum of harmonics
 /// leaves it by so much that a run would take it for free, and let it go for a step.
 void hold_down(double radius, Setup& s) {
   const dynamics::Model& m = s.model;

@@ -12,8 +12,8 @@ namespace rondo::study {
 /// Steps are those of the element bound, which is at most the critical step [s].
 struct StepLimit {
   std::size_t cell = 0;        ///< the one with the smallest step
-  Vec2 place;                  ///< of its middle, in the undeformed body [m]
-  std::string part;            ///< of the body that it is in: a layer of a disk, a surface
+  Vec2 place;                  ///< place of its middle, in the undeformed body [m]
+  std::string part;            ///< part that it is in: a layer of a disk, a surface
   std::string part_kind;       ///< "layer", "surface"
   double step = 0.0;           ///< with all elements
   double without_worst = 0.0;  ///< without the worst hundredth of them, one at the least
@@ -23,10 +23,10 @@ struct StepLimit {
 /// @pre of a dynamic case, whose stiffness and prestress are there
 StepLimit find_step_limit(const Case& c, const Setup& s);
 
-/// What `rondo check` says of it: steps as factors of `step`, as the critical step is a larger one.
+/// Lines of `rondo check` on it: steps as factors of `step`, as the critical step is a larger one.
 std::vector<Told> lines_of(const StepLimit& limit);
 
-/// What it says of the steps of a run, that among it.
+/// Lines of `rondo check` on the steps of a run, those on the limit among them.
 std::vector<Told> step_lines(const Case& c, const Setup& s);
 
 }  // namespace rondo::study

@@ -12,7 +12,7 @@ namespace rondo::study {
 /// @pre c is a crush. @throws InputError
 [[nodiscard]] std::unique_ptr<Analysis> make_crush(const Case& c, const RunOptions& options);
 
-/// What a crush has in run.json, besides shared_members(), rubber_members() and latin_members().
+/// Members of a crush in run.json, besides shared_members(), rubber_members() and latin_members().
 std::vector<MemberText> crush_members();
 
 }  // namespace rondo::study

@@ -48,7 +48,7 @@ HistoryRecord record_of(const CrushSetup& setup, const CrushRecord& r) {
   return h;
 }
 
-/// What LATIN leaves of a force on an open node is no contact.
+/// The rest of a force that LATIN leaves on an open node is no contact.
 bool touches(const statics::CrushState& state, std::size_t k) {
   return state.force[k].x > 0.0 && state.status[k] != contact::Status::open;
 }

@@ -9,10 +9,10 @@
 
 namespace rondo::study {
 
-/// Of the contact after an increment.
+/// Sums over the contact after an increment.
 struct CrushSums {
-  Vec2 contact;         ///< of the ground: normal, tangential [N/m]
-  Vec2 force;           ///< the same along the fixed axes [N/m]
+  Vec2 contact;         ///< force of the ground: normal, tangential [N/m]
+  Vec2 force;           ///< this force along the fixed axes [N/m]
   double torque = 0.0;  ///< about the center [N]
   int nodes = 0, sticking = 0;
   double length = 0.0;                 ///< [m]
@@ -31,7 +31,7 @@ struct CrushRecord {
   const CrushSums& sums;
 };
 
-/// Of a row: those of every analysis, then those of a crush.
+/// Labels of a row: those of every analysis, then those of a crush.
 std::vector<ColumnLabel> crush_columns();
 /// @param rows of history.csv, one after another
 void append_row(const CrushSetup& setup, const CrushRecord& r, std::vector<double>& rows);

@@ -17,7 +17,7 @@ class CrushSolver {
   CrushSolver& operator=(const CrushSolver&) = delete;
   virtual ~CrushSolver() = default;
 
-  /// What takes long and may refuse the case. @throws InputError
+  /// Does what takes long and may refuse the case. @throws InputError
   virtual void prepare() = 0;
   /// One iteration on all increments at once. False: there is nothing left to iterate, and the
   /// increments may be taken. @param trouble gets what is wrong, where the run cannot go on
@@ -37,7 +37,7 @@ class CrushSolver {
                                                              const RunOptions& options,
                                                              const CrushSetup& setup);
 
-/// What contact solvers that sweep had to do, of all increments.
+/// Work of contact solvers that sweep, over all increments.
 class SweepCount {
  public:
   void add(const statics::CrushReport& report) noexcept;
@@ -51,7 +51,7 @@ class SweepCount {
 /// Adds to run.json how many contact nodes the stiffness was condensed on.
 void add_condensed(std::size_t candidates, Json& json);
 
-/// What these two add to run.json.
+/// Texts of the members that these two add to run.json.
 std::vector<MemberText> crush_solver_members();
 
 }  // namespace rondo::study

@@ -16,7 +16,7 @@ struct LatinHistories {
   statics::LatinPair balanced;  ///< what is written; the laws hold but for a residual
   Eigen::MatrixXd lawful;       ///< (2m, N) forces that obey them: what is in contact
   Eigen::VectorXd residuals;    ///< (N)
-  std::optional<statics::Separated> separated;  ///< of LATIN-PGD: the fields
+  std::optional<statics::Separated> separated;  ///< fields of LATIN-PGD
 };
 
 /// Holds references to all but the histories.

@@ -32,7 +32,7 @@ using statics::Condensation;
 
 constexpr int most_iterations = 2000;
 constexpr double last_cut = 0.5;       ///< share of the tolerance that modes left out may have
-constexpr double most_foreign = 1e-6;  ///< of a field's loads
+constexpr double most_foreign = 1e-6;  ///< share of a field's loads away from the contact nodes
 
 struct LatinBegin {
   const Case& c;
@@ -122,13 +122,13 @@ class LatinSolver final : public CrushSolver {
   const CrushSetup& setup_;
   fem::BlockCsr stiffness_;
   std::shared_ptr<Condensation> body_;
-  std::unique_ptr<Condensation> stiffened_;  ///< of PGD
+  std::unique_ptr<Condensation> stiffened_;  ///< for PGD alone
   std::vector<int> nodes_;                   ///< (m) of the set
   double direction_ = 0.0;                   ///< [N/m²]
   int fields_begun_with_ = 0;
   statics::LatinProblem problem_;
   std::unique_ptr<statics::Elasticity> elasticity_;
-  statics::Pgd* pgd_ = nullptr;  ///< the same; null: LATIN
+  statics::Pgd* pgd_ = nullptr;  ///< elasticity_ as a Pgd; null: LATIN
   std::optional<statics::Latin> latin_;
   statics::LatinReport report_;
   std::optional<io::Csv> convergence_;

@@ -9,7 +9,7 @@ namespace rondo::study {
                                                              const RunOptions& options,
                                                              const CrushSetup& setup);
 
-/// What it adds to run.json.
+/// Texts of the members that this solver adds to run.json.
 std::vector<MemberText> latin_members();
 
 }  // namespace rondo::study

@@ -26,7 +26,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::array<double, 3> counted_shares{1e-2, 1e-4, 1e-6};  ///< as of a POD
+constexpr std::array<double, 3> counted_shares{1e-2, 1e-4, 1e-6};  ///< shares that a POD counts too
 
 const fs::path place = fs::path("pod") / "displacement-pgd";  ///< in the directory of a run
 
@@ -37,7 +37,7 @@ struct Found {
   std::vector<double> error;  ///< (N) of the modes kept, relative
 };
 
-/// What the modes from r on are of each increment, over all of it.
+/// Share of the modes from r on in each increment.
 std::vector<double> errors_of(const statics::Separated& s, Index r) {
   const Eigen::MatrixXd parts = s.temporal * s.sigma.asDiagonal();
   std::vector<double> errors;
@@ -158,7 +158,7 @@ constexpr const char* wanted =
   throw request_error("--modes-from", run.string(), what, wanted);
 }
 
-/// Where the modes are. @throws InputError
+/// The directory of the modes. @throws InputError
 fs::path directory_of(const fs::path& run) {
   std::error_code none;
   if (!fs::exists(run, none)) refuse(run, "there is no such directory");

@@ -18,17 +18,17 @@ namespace rondo::study {
 struct PgdModes {
   const mesh::Mesh* mesh = nullptr;
   std::span<const double> mass;   ///< (n) lumped mass of the nodes                          [kg/m]
-  std::string title;              ///< of the run
+  std::string title;              ///< title of the run
   std::vector<double> parameter;  ///< (N) of each increment, in the place of time, rising      [-]
   const statics::Separated* solution = nullptr;  ///< all of it: Pgd::separated(0.0)
   const Eigen::MatrixXd* basis = nullptr;        ///< (2n, b) field of Pgd::basis()
-  double share = 0.0;      ///< of the norm of the solution: what the modes left out may have
+  double share = 0.0;      ///< share of the norm of the solution that the modes left out may have
   double direction = 0.0;  ///< k                                                          [N/m²]
-  statics::LatinReport latin;      ///< of the last iteration
-  int solves = 0, most_modes = 0;  ///< of the Pgd
+  statics::LatinReport latin;      ///< report of the last iteration
+  int solves = 0, most_modes = 0;  ///< counts of the Pgd
 };
 
-/// What became of them.
+/// The results of write_pgd().
 struct PgdFiles {
   int values = 0, modes = 0;    ///< singular values; modes kept
   double left_out = 0.0;        ///< by the modes kept, of the norm of the solution           [-]
@@ -38,10 +38,10 @@ struct PgdFiles {
 /// A directory that opens is complete: pod.json is written last. @throws FileError
 PgdFiles write_pgd(const std::filesystem::path& run_directory, const PgdModes& modes);
 
-/// Of a run that is done, or of its PGD. @throws InputError: as read_pgd_basis()
+/// The basis file of a run that is done, or of its PGD. @throws InputError: as read_pgd_basis()
 [[nodiscard]] std::filesystem::path pgd_basis_file(const std::filesystem::path& run);
 
-/// What another run was solved with: fields (2n, b), b >= 1. @param run its directory, or that of
+/// The fields another run was solved with: (2n, b), b >= 1. @param run its directory, or that of
 /// its PGD. @throws InputError: no such run, one without modes of LATIN-PGD, of another mesh;
 /// FileError: damaged
 [[nodiscard]] Eigen::MatrixXd read_pgd_basis(const std::filesystem::path& run,

@@ -53,7 +53,7 @@ void refuse_contacts(const Case& c, const Setup& s, const std::vector<int>& node
                    "elements away from the contact boundary, or " + words.instead);
 }
 
-/// What an impulse on one of these nodes does to all others is kept; round a disk once for all
+/// The effect of an impulse on one of these nodes on all others is kept; round a disk once for all
 /// sectors.
 void refuse_many_contacts(const Case& c, const Setup& s, const std::vector<int>& nodes) {
   if (!s.model.contact || s.model.stiffness_operator == dynamics::StiffnessOperator::cyclic) return;

@@ -8,11 +8,11 @@ namespace rondo::study {
 
 /// Finds the elements of [[solver.implicit]], if there are any, and gives the model their
 /// stiffness. @throws InputError: none chosen, or what they cannot do. @pre the model has all that
-/// hangs on the body
+/// depends on the body
 void add_implicit(const Case& c, Setup& s);
 
-/// Of the explicit elements, with the mass of all (docs/theory.md, 3.9); an infinite step: there
-/// are none. @pre the model has implicit elements
+/// Critical step of explicit elements, with the mass of all (docs/theory.md, 3.9); infinite where
+/// there are none. @pre the model has implicit elements
 [[nodiscard]] dynamics::CriticalStep explicit_part_step(const Setup& s,
                                                         dynamics::LaggedDamping damping);
 

@@ -73,7 +73,7 @@ std::vector<std::vector<int>> joined_nodes(const mesh::Mesh& mesh) {
   return beside;
 }
 
-/// Where the body comes as low as one of them.
+/// Warns of concave corners if the body comes as low as one of them.
 void warn_of_concave_corners(const Case& c, Setup& s) {
   double radius = 0.0, lowest = c.motion.height.at(0.0);
   for (const Vec2 x : s.mesh.coordinates) radius = std::max(radius, norm(x));

@@ -27,7 +27,7 @@ void check_interface(const Case& c, const dynamics::Subdomains& parts) {
         fmt::format("at most {} nodes", most_interface_nodes));
 }
 
-/// What the multiplier does in a coarse step must not reach a contact in it: 12.3.
+/// The effect of the multiplier in a coarse step must not reach a contact in it: 12.3.
 void check_contacts(const Case& c, const Setup& s, const dynamics::Subdomains& parts) {
   if (!s.model.contact) return;
   const std::vector<int> distance = distance_to_interface(parts);

@@ -15,9 +15,9 @@ namespace rondo::study {
 enum class Statistic { mean, min, max, last };
 
 struct ChosenFigure {
-  std::string column;  ///< of history.csv
+  std::string column;  ///< column of history.csv
   Statistic statistic = Statistic::last;
-  ColumnLabel label;  ///< of the table of the sweep
+  ColumnLabel label;  ///< label in the table of the sweep
 };
 
 /// NAME_mean, NAME_min, NAME_max and NAME_last of each, without a mean where there is no window; of

@@ -6,9 +6,9 @@
 namespace rondo::study {
 
 [[nodiscard]] FigureTable crush_figures() noexcept;
-/// The same, and what LATIN did.
+/// The figures of a crush, and what LATIN did.
 [[nodiscard]] FigureTable latin_figures() noexcept;
-/// The same, and what LATIN-PGD did; NaN of runs that know nothing of it.
+/// The figures of LATIN, and what LATIN-PGD did; NaN where run.json does not have it.
 [[nodiscard]] FigureTable pgd_figures() noexcept;
 
 }  // namespace rondo::study

@@ -39,7 +39,7 @@ constexpr std::array dynamic_columns{
     FigureColumn{"jacobian_min", "1", "least area of an element over that undeformed"},
 };
 
-/// Of a wheel in three dimensions.
+/// Columns of a wheel in three dimensions.
 constexpr std::array dynamic_solid_columns{
     FigureColumn{"force_x_mean", "N", "of the ground on the body along t1, mean over the window"},
     FigureColumn{"force_x_peak", "N", "the value of largest magnitude in the window"},
@@ -75,7 +75,7 @@ constexpr std::array dynamic_solid_columns{
     FigureColumn{"jacobian_min", "1", "least volume of an element over that undeformed"},
 };
 
-/// Of the force that presses the wheel on the ground: what is left of a lateral one straight on.
+/// Rest of a lateral force straight on, over the force that presses the wheel on the ground.
 constexpr double round_off = 1e-9;
 
 double peak(const Intervals& f) {

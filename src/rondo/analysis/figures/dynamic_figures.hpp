@@ -6,7 +6,7 @@
 namespace rondo::study {
 
 [[nodiscard]] FigureTable dynamic_figures() noexcept;
-/// Of a wheel in three dimensions: forces in N, with the lateral one and its moments.
+/// Figures of a wheel in three dimensions: forces in N, with the lateral one and its moments.
 [[nodiscard]] FigureTable solid_dynamic_figures() noexcept;
 
 }  // namespace rondo::study

@@ -23,16 +23,16 @@ struct Window {
 
 struct FigureTable {
   std::span<const FigureColumn> columns;
-  /// As many as columns. @throws FileError: the files cannot be read, or hold no row in the window
+  /// A figure per column. @throws FileError: the files cannot be read, or hold no row in the window
   std::vector<double> (*of)(const std::filesystem::path& directory, const Window& window);
   bool has_window = true;  ///< false: the end alone counts, and a window means nothing
 };
 
-/// Of a run without files.
+/// Results of a run without files.
 struct DirectRun {
   std::string trouble;          ///< what ended it; empty: it is done
   long long steps = 0;          ///< done, as in run.json
-  std::vector<double> figures;  ///< as the columns; empty: there is trouble
+  std::vector<double> figures;  ///< one for each column; empty: there is trouble
 };
 
 /// NaN where it has no such number.

@@ -28,7 +28,7 @@
 namespace rondo::study {
 namespace {
 
-/// What the modes depend on.
+/// The data that the modes depend on.
 struct Body {
   mesh::Mesh mesh;
   std::vector<double> mass;
@@ -36,7 +36,7 @@ struct Body {
   double largest_frequency = 0.0;       ///< an upper bound [rad/s]
   int free = 0;                         ///< bodies that nothing holds
   bool wide_rows = false;               ///< has_wide_rows()
-  std::vector<std::string> warnings{};  ///< of the case and the mesh
+  std::vector<std::string> warnings{};  ///< warnings of the case and the mesh
 
   [[nodiscard]] bool cyclic() const noexcept { return mesh.n_sectors > 0; }
 };
@@ -186,7 +186,7 @@ class Solver {
   [[nodiscard]] std::vector<modal::CriticalSpeed> critical(int last) {
     if (!body_.cyclic()) return {};
     if (unit_prestress_.empty()) return modal::critical_speeds(cyclic(), nullptr, last);
-    // Of a spin at which it is as large as the elastic stiffness, for the difference to be exact.
+    // The prestress of this spin is as large as the elastic stiffness: the difference is exact.
     const double spin = body_.largest_frequency;
     assemble(spin);
     fem::SectorStiffness unit = std::move(sector_);
@@ -376,15 +376,15 @@ class ModesAnalysis final : public Analysis {
   const Body body_;
   const std::vector<double> spins_, sweep_;  ///< [rad/s]
   std::optional<Solver> solver_;
-  std::vector<Solved> solved_;         ///< of spins_
-  std::vector<ModeLine> sweep_lines_;  ///< of sweep_
+  std::vector<Solved> solved_;         ///< results of spins_
+  std::vector<ModeLine> sweep_lines_;  ///< lines of sweep_
   ModesReport report_;
   std::vector<std::string> said_;     ///< warnings
   std::optional<std::string> wrong_;  ///< the first thing, which ends nothing but counts at the end
   std::optional<std::string> trouble_;
 };
 
-/// What went wrong, or less well than the user may think.
+/// Tells what went wrong, or less well than the user may think.
 void ModesAnalysis::judge(const SpinSummary& s) {
   if (s.unstable > 0 && !wrong_)
     wrong_ = fmt::format(

@@ -22,8 +22,8 @@ struct ModesRequest {
 
 /// A line of modes.csv.
 struct ModeLine {
-  double angular_velocity = 0.0;  ///< as in the case, > 0 rolls towards +x            [rad/s]
-  double omega = 0.0;             ///< in the turning frame                            [rad/s]
+  double angular_velocity = 0.0;  ///< value of the case, > 0 rolls towards +x         [rad/s]
+  double omega = 0.0;             ///< frequency in the co-rotating frame              [rad/s]
   int diameters = -1;             ///< -1: unknown
   modal::Wave wave = modal::Wave::unknown;
   double residual = 0.0;
@@ -33,7 +33,7 @@ struct SpinSummary {
   double angular_velocity = 0.0;  ///< [rad/s]
   int modes = 0, rigid = 0, unstable = 0, dimension = 0;
   bool counted = false;
-  double growth = 0.0;  ///< of the rotation of a free disk [1/s]
+  double growth = 0.0;  ///< growth of the rotation of a free disk [1/s]
 };
 
 struct ModesReport {

@@ -21,7 +21,7 @@ std::string diameters_text(int n) {
   return n < 0 ? std::string() : fmt::to_string(n);
 }
 
-/// As the fixed frame sees a wave that travels with or against the spin (8.7).
+/// The frequency in the fixed frame of a wave that travels with or against the spin (8.7).
 double in_fixed_frame(const ModeLine& m, Wave wave) {
   const double turn = m.diameters * std::abs(m.angular_velocity);
   if (wave == Wave::backward) return std::abs(m.omega - turn);

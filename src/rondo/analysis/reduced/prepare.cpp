@@ -118,7 +118,7 @@ void take_rim(const Case& c, const RunOptions& options, const Setup& setup, Redu
   run.file.model.rim = rom::make_rim_modes(setup.mesh, setup.model.mass, run.file.model);
 }
 
-/// What the motion says before the run; of a free rim its start says nothing.
+/// Warns by what the motion says before the run; if the rim is free, its start says nothing.
 void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
   const ModelRanges& built = run.file.ranges;
   const dynamics::RimBody rim = c.rim.value_or(dynamics::RimBody{});

@@ -16,7 +16,7 @@ struct ReducedRun {
   rom::StepScheme scheme = rom::StepScheme::midpoint;
   bool lifts = true;                  ///< snapshots are fields
   double step_factor = 1.0;           ///< taken
-  double full_step = 0.0;             ///< of the full run [s]
+  double full_step = 0.0;             ///< step of the full run [s]
   std::vector<std::string> warnings;  ///< for the user
   bool constant_spin = true;          ///< by its case
   rom::StepFigures figures;           ///< filled while it runs
@@ -36,7 +36,7 @@ double points_passed(const Setup& setup, double turned, const ReducedRun& run);
 /// A contact point must not be passed in one step, in words. @param spin [rad/s]. Empty: it is not.
 std::string passed_points(const Case& c, const Setup& setup, double spin, const ReducedRun& run);
 
-/// Where there is something to say.
+/// Adds the warning, unless it is empty.
 void add_said(std::string warning, std::vector<std::string>& warnings);
 
 }  // namespace rondo::study

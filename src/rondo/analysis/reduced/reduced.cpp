@@ -16,7 +16,7 @@
 namespace rondo::study {
 namespace {
 
-/// Of values that the motion is led over to; what was said before is not said again.
+/// Warns of values that the motion is led over to; what was said before is not said again.
 void warn_of_values(const Case& c, const Setup& setup, ReducedRun& run) {
   const ModelRanges& built = run.file.ranges;
   const dynamics::RimBody rim = c.rim.value_or(dynamics::RimBody{});
@@ -37,7 +37,7 @@ void warn_of_values(const Case& c, const Setup& setup, ReducedRun& run) {
       run.warnings.push_back(std::move(warning));
 }
 
-/// Of a spin that stays the step makes a whole number of phases of a sector, see step_of().
+/// The step of a spin that stays makes a whole number of phases of a sector, see step_of().
 void refuse_other_phases(const Case& c, const ReducedRun& run) {
   const bool phases =
       c.ground && !(c.rim && c.rim->free_spin) && run.file.model.form == rom::ContactForm::nodes;
@@ -244,13 +244,13 @@ class ReducedAnalysis final : public DynamicAnalysis {
   }
 
  private:
-  /// Where a rim that moved by itself came.
+  /// Warns of the range that a rim has come to by itself.
   void warn_of_rim() {
     std::vector<std::string> warnings;
     const ModelRanges& built = run_.file.ranges;
     const rom::RimExtents& rim = run_.figures.rim;
     const double told = case_.motion.angular_velocity.largest();  // before the run
-    // What comes out swings: 2 % of spin and speed are no news.
+    // The results swing: 2 % of spin and speed are no news.
     const auto check = [&](bool free, const char* what, const ModelRange& from, rom::Extent to,
                            double share) {
       if (free) add_said(outside(what, from, {to.low, to.high}, share * to.largest()), warnings);

@@ -11,7 +11,7 @@ namespace rondo::study {
 /// @throws InputError: no such file, another body, what a reduced run cannot do; FileError
 [[nodiscard]] std::unique_ptr<Analysis> make_reduced(const Case& c, const RunOptions& options);
 
-/// What a reduced run has in run.json, besides dynamic_members().
+/// Members of a reduced run in run.json, besides dynamic_members().
 std::vector<MemberText> reduced_members();
 
 }  // namespace rondo::study

@@ -21,7 +21,7 @@ struct ModelRange {
   [[nodiscard]] bool empty() const noexcept { return low > high; }
 };
 
-/// What a case has outside of the range of a model, as a warning; empty: inside but for a
+/// The part of a case outside of the range of a model, as a warning; empty: inside but for a
 /// thousandth of the range, of the value or of the scale, which is no news.
 std::string outside(const char* what, const ModelRange& built, const ModelRange& wanted,
                     double scale = 0.0);

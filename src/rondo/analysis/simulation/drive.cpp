@@ -16,7 +16,7 @@ namespace {
 
 using dynamics::Table;
 
-/// Of what is free, the table of the motion gives the value at t = 0 alone.
+/// The motion's table of what is free gives the value at t = 0 alone.
 bool counts_at_start_alone(const Case& c, const std::string& path) {
   if (!c.rim) return false;
   return (path == "motion.speed" && c.rim->free_x) || (path == "motion.height" && c.rim->free_y) ||

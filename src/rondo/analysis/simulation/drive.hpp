@@ -22,7 +22,7 @@ namespace rondo::study {
 /// The table of a key of driven_keys(). @throws InputError: it is none of them, which are named
 [[nodiscard]] dynamics::Table& driven_table(Case& c, const std::string& key);
 
-/// The same for a value it is to have. @throws InputError: it is not allowed there
+/// Finds it for a value that it is to have. @throws InputError: the value is not allowed there
 [[nodiscard]] dynamics::Table& driven_table(Case& c, const std::string& key, double value);
 
 }  // namespace rondo::study

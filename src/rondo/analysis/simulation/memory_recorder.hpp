@@ -15,12 +15,12 @@ struct RecordedSnapshots {
   std::vector<double> time, time_velocity;    ///< (t)                                  [s]
   std::vector<double> angle, angle_velocity;  ///< (t)                                  [rad]
   std::vector<double> center;                 ///< (t, c)                               [m]
-  std::vector<double> displacement;           ///< (t, n, c) turning frame              [m]
+  std::vector<double> displacement;           ///< (t, n, c) co-rotating frame          [m]
   std::vector<double> velocity;               ///< (t, n, c)                            [m/s]
   std::vector<double> contact_force;          ///< (t, nb, c) normal, tangential        [N/m]
 };
 
-/// Of all snapshots of a plan [B].
+/// Memory of all snapshots of a plan [B].
 [[nodiscard]] std::size_t memory_of_snapshots(const RecordPlan& plan) noexcept;
 
 class MemoryRecorder : public Recorder {
@@ -36,7 +36,7 @@ class MemoryRecorder : public Recorder {
   [[nodiscard]] bool is_saving() const noexcept override { return true; }
   void keep_up() override {}
 
-  /// Of one row; the numbers of all are rows().
+  /// Labels of one row; the numbers of all are rows().
   [[nodiscard]] const std::vector<ColumnLabel>& columns() const noexcept { return columns_; }
   [[nodiscard]] RecordedSnapshots& snapshots() noexcept { return kept_; }
 

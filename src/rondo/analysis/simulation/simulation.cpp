@@ -86,7 +86,7 @@ bool Simulation::go_on(double seconds) {
   return there;
 }
 
-/// What the frame and the loads of the next step are is known already: its end is at t_{n+1}.
+/// The frame and the loads of the next step are known already: its end is at t_{n+1}.
 void Simulation::drive(const std::vector<DrivenValue>& values, double over) {
   const double dt = setup().model.dt;
   if (!(over >= 0.0) || !std::isfinite(over))

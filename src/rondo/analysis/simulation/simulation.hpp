@@ -18,7 +18,7 @@ namespace rondo::study {
 /// Fields of the last step for those who look on, in memory that stays where it is.
 struct ShownFields {
   std::size_t nodes = 0, components = 2;
-  std::vector<double> displacement;  ///< (n, c) turning frame; of free bodies fixed frame   [m]
+  std::vector<double> displacement;  ///< (n, c) co-rotating frame; of free bodies fixed frame [m]
   std::vector<double> velocity;      ///< (n, c) half a step before                        [m/s]
 };
 
@@ -38,15 +38,15 @@ class Simulation {
   [[nodiscard]] const Case& case_as_driven() const noexcept { return case_; }
   [[nodiscard]] const Setup& setup() const noexcept { return stepwise_->setup(); }
   [[nodiscard]] long long steps_made() const noexcept { return stepwise_->steps_made(); }
-  /// Of the last step made [s].
+  /// Time of the last step made [s].
   [[nodiscard]] double end_time() const noexcept;
-  /// Of the end, a failure or a stop.
+  /// The run has come to its end, a failure or a stop.
   [[nodiscard]] bool is_over() const noexcept { return session_->is_over(); }
-  /// Of a failure; else empty.
+  /// The message of a failure; else empty.
   [[nodiscard]] std::string trouble() const;
   [[nodiscard]] const Json& json() const noexcept { return session_->json(); }
 
-  /// What go_on() goes to: at most the end.
+  /// Sets the step that go_on() goes to: at most the end.
   void aim(long long step);
   /// Steps until there, or for so many seconds [s]. True: it is there, or over. @throws FileError
   [[nodiscard]] bool go_on(double seconds);
@@ -63,7 +63,7 @@ class Simulation {
   [[nodiscard]] std::shared_ptr<const ShownFields> fields();
   [[nodiscard]] const dynamics::State* state() { return stepwise_->state(); }
   [[nodiscard]] std::vector<double> row() const { return stepwise_->row(); }
-  /// Of row(), and of the rows kept in memory.
+  /// Labels of row(), and of the rows kept in memory.
   [[nodiscard]] const std::vector<ColumnLabel>& columns() const noexcept { return columns_; }
   /// (rows, columns) of all so far, of a run in memory; null: history.csv has them
   [[nodiscard]] const std::vector<double>* rows() const noexcept;

@@ -13,11 +13,11 @@ namespace rondo::study {
 
 struct Solution {
   RunReport report;
-  Json json;  ///< as run.json
+  Json json;  ///< contents of run.json
   mesh::Mesh mesh;
   std::vector<double> mass;          ///< (n) lumped [kg/m], in three dimensions [kg]
   std::vector<int> free_body;        ///< (n) as of /mesh/free_body; empty: no free bodies
-  std::vector<ColumnLabel> columns;  ///< of the rows
+  std::vector<ColumnLabel> columns;  ///< labels of the rows
   std::vector<double> rows;          ///< (rows, columns)
   RecordedSnapshots snapshots;
 };

@@ -22,7 +22,7 @@ constexpr int pair_sweeps = 2;             ///< with a sweep, after these
 constexpr double first_shift = 1e-10, second_shift = 1e-3, shift_factor = 10.0;
 constexpr double least_shift = 1e-11, largest_shift = 1.0;
 constexpr int tries_before_less = 8;
-constexpr int most_halvings = 10;  ///< of Newton steps, after the first try
+constexpr int most_halvings = 10;  ///< most halvings of a Newton step, in all tries but the first
 
 /// One iteration of a solution: what is at hand, and the best so far.
 struct Iteration {
@@ -31,7 +31,7 @@ struct Iteration {
   std::span<Vec2> best;
   CoupledWorkspace& work;
   CoupledResult result{};
-  double scale = 0.0;  ///< of the residual [N·s/m]
+  double scale = 0.0;  ///< scale of the residual [N·s/m]
 
   [[nodiscard]] bool finished() const noexcept {
     return result.converged || result.iterations >= limits.most_iterations;

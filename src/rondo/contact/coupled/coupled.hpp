@@ -28,7 +28,7 @@ struct CoupledProblem {
 };
 
 struct CoupledLimits {
-  double tolerance = 1e-12;     ///< of the residual (4.5), coupled_residual
+  double tolerance = 1e-12;     ///< largest residual (4.5) of a solution, see coupled_residual
   int most_iterations = 10000;  ///< sweeps and Newton steps together
 };
 
@@ -63,8 +63,8 @@ struct CoupledWorkspace {
 
 /// The law at one contact with a general block: w = free + W r (4.7a).
 /// The only solution where W_nn > μ|W_nt|, one of several on other symmetric W with det W > 0.
-/// Where W is singular, as with modes that let a point move one way only, the contact is left open
-/// and the residual tells.
+/// If W is singular, as with modes that let a point move one way only, the contact stays open and
+/// the residual shows the error.
 [[nodiscard]] LocalSolution solve_block(const Block& delassus, Vec2 free, double bounce,
                                         double friction) noexcept;
 

@@ -39,12 +39,12 @@ struct Newton {
   std::span<Vec2> r;
   CoupledWorkspace& work;
 
-  /// What the law asks to be zero where the contact is active: w + bounce + (shift/m)(r - r⁰).
+  /// The vector that the law sets to zero at an active contact: w + bounce + (shift/m)(r - r⁰).
   [[nodiscard]] Vec2 lack(std::size_t j) const noexcept {
     return work.velocity[j] + Vec2{p.bounce[j], 0.0} +
            settings.shift / p.mass[j] * (r[j] - work.anchor[j]);
   }
-  /// Where the impulse would go to: r - m lack.
+  /// The impulse r - m lack, which the law has not limited yet.
   [[nodiscard]] Vec2 trial(std::size_t j) const noexcept {
     return r[j] - p.mass[j] / (1.0 + settings.shift) * lack(j);
   }
@@ -67,7 +67,7 @@ double merit(Newton& it) noexcept {
 
 struct Statuses {
   int unknowns = 0;
-  bool same = true;  ///< as those before
+  bool same = true;  ///< no status and no side of slip has changed
 };
 
 /// Statuses from the velocities of r. Impulses of open contacts are set to zero, those of slipping

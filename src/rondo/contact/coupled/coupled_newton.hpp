@@ -13,11 +13,11 @@ namespace rondo::contact {
 int order_contacts(const CoupledProblem& problem, CoupledWorkspace& work);
 
 struct NewtonSettings {
-  int width = 0;       ///< of order_contacts
+  int width = 0;       ///< result of order_contacts
   double shift = 0.0;  ///< W_jj + shift/m_j, for contacts that share what they hold       [-]
   int most_steps = 20;
-  int halvings = 10;   ///< of a step that goes too far; 0: whole steps
-  double scale = 0.0;  ///< of the impulses [N·s/m]
+  int halvings = 10;   ///< most halvings of a step that goes too far; 0: whole steps
+  double scale = 0.0;  ///< scale of the impulses [N·s/m]
 };
 
 struct NewtonResult {

@@ -17,7 +17,7 @@ struct ProblemFile {
   std::string about;          ///< where the problem is from
   std::vector<Vec2> impulse;  ///< (nc) found then
   std::vector<Vec2> start;    ///< (nc) warm start
-  CoupledResult result;       ///< of then
+  CoupledResult result;       ///< how the solver ended then
 };
 
 /// Problems that took long, until somebody takes them: the first few.

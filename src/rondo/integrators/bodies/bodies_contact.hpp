@@ -26,14 +26,14 @@ class BodiesContact {
   [[nodiscard]] std::span<const int> boundary_after(double travelled) noexcept {
     return contact_.finder().boundary_after(travelled);
   }
-  /// Of these u_{n+1} is to be set before find()                                           [m]
+  /// Displacements; those of these nodes are to be set to u_{n+1} before find()            [m]
   [[nodiscard]] std::span<Vec2> displacement() noexcept { return state_.u; }
   /// The nodes of what touches, ascending: `before` and `free` are to be set before solve().
   std::span<TouchingNode> find(const FrameStep& frame);
   /// Sets `after`. @param center about which the ground's angular impulse is taken         [m]
   ContactReport solve(const BodyFrames& frames, Vec2 center);
 
-  /// Of the last step.
+  /// Contacts of the last step.
   [[nodiscard]] const std::vector<ActiveContact>& active() const noexcept { return state_.active; }
   [[nodiscard]] const GeneralContact::KeptImpulses& impulses() const noexcept {
     return contact_.impulses();

@@ -49,7 +49,7 @@ class BodiesIntegrator final : public Integrator, public Resumable {
     std::array<double, kernels::n_velocity_sums> velocity{};
     std::array<double, kernels::n_move_sums> move{};
   };
-  /// What contact does to the velocity of a row.
+  /// The change that contact makes to the velocity of a row.
   struct Correction {
     int row = 0;
     Vec2 before, after;            ///< v⁻, v⁺                                         [m/s]
@@ -99,12 +99,12 @@ class BodiesIntegrator final : public Integrator, public Resumable {
   std::optional<BodiesContact> contact_;  ///< absent: nothing to touch
   long long step_;                        ///< number of the last step made
   FrameStep frame_;
-  std::vector<GroupStep> groups_;  ///< as in the plan
-  std::vector<BlockSums> sums_;    ///< as in the plan
+  std::vector<GroupStep> groups_;  ///< steps of the plan's groups
+  std::vector<BlockSums> sums_;    ///< sums of the plan's blocks
   std::vector<Pose> poses_;        ///< (free_bodies) at t_{n+1}
   std::vector<double>
       energy_;  ///< (free_bodies) of (9.7), what belongs to t_{n+1}: U/2 + Δt v⁺·G/4
-  std::vector<Correction> corrections_;  ///< of the step in hand, ascending rows
+  std::vector<Correction> corrections_;  ///< corrections of the step in hand, ascending rows
   double kinetic_ = 0.0;                 ///< Σ m |v|² before u_{n+1}
   Ledger ledger_;
   Barrier barrier_;

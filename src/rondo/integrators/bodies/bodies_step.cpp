@@ -82,7 +82,7 @@ kernels::BodyBlock BodiesIntegrator::block_of(std::size_t block, double* sums) n
           .sums = sums};
 }
 
-/// Of the blocks of a group.
+/// Sum over the blocks of a group.
 template <class Sums, class Sum>
 double BodiesIntegrator::sum_of(const BodyGroup& group, Sums BlockSums::*sums,
                                 Sum sum) const noexcept {
@@ -180,7 +180,7 @@ void BodiesIntegrator::find_forces(std::size_t block) noexcept {
   add_lanes(sums.data(), sums_[block].force);
 }
 
-/// What turning with a body takes away of the forces (9.5), (9.6).
+/// Finds the part of the forces that turning with a body takes away (9.5), (9.6).
 void BodiesIntegrator::find_turning() noexcept {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     const BodyGroup& group = plan_.groups[g];
@@ -323,7 +323,7 @@ void BodiesIntegrator::correct(const Correction& on, BlockSums& sums) noexcept {
   velocity[lanes] = on.after.y;
 }
 
-/// What fills up the last pack of a group stays where it is.
+/// Keeps the rows that fill up the last pack of a group where they are.
 void BodiesIntegrator::rest_padding(const RowBlock& block) noexcept {
   for (std::size_t i = block.last_pack * lanes; plan_.node[--i] < 0;) {
     double* motion = motion_.data() + BodyPlan::at(static_cast<int>(i));
@@ -371,7 +371,7 @@ void BodiesIntegrator::end_step(StepReport& report) noexcept {
   report.balance = ledger_.last();
 }
 
-/// Where nothing is held, those who look on see the first body's place and rotation.
+/// Reports the first body's place and rotation where nothing is held.
 void BodiesIntegrator::report_frame(StepReport& report) const noexcept {
   report.frame = frame_;
   if (plan_.groups.front().held() || poses_.empty()) return;

@@ -13,10 +13,10 @@ class BodyLoads {
 
   /// Forces at t and the displacements of `motion`, as in kernels::BodyFields.
   void find(const double* motion, double t) noexcept;
-  /// On a row                                                                            [N/m]
+  /// Force on a row                                                                      [N/m]
   [[nodiscard]] Vec2 on(int row) const noexcept;
 
-  /// As in kernels::BodyFields; null: there are none.
+  /// Members of kernels::BodyFields; null: there are none.
   [[nodiscard]] const int* load_at() const noexcept { return at_.empty() ? nullptr : at_.data(); }
   [[nodiscard]] const double* loads() const noexcept { return loads_.data(); }
 

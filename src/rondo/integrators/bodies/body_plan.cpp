@@ -50,7 +50,7 @@ void add_groups(const Model& model, BodyPlan& plan) {
     if (plan.node[i] >= 0) plan.row[static_cast<std::size_t>(plan.node[i])] = static_cast<int>(i);
 }
 
-/// Of a row of a group.
+/// Adds the constants of a row of a group.
 void add_constant(const Model& model, const BodyGroup& group, int row, BodyPlan& plan) {
   const auto node = static_cast<std::size_t>(plan.node[static_cast<std::size_t>(row)]);
   const Vec2 arm = model.reference[node] - group.center;

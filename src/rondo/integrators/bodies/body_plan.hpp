@@ -19,10 +19,10 @@ struct BodyGroup {
   int body = -1;  ///< place in Model::free_bodies, -1: held
   std::size_t first_pack = 0, last_pack = 0;
   std::size_t first_block = 0, last_block = 0;
-  // Of a free body, arm = X - X_c:
+  // Members of a free body, with arm = X - X_c:
   double mass = 0.0;     ///< [kg/m]
   Vec2 center;           ///< X_c                                                        [m]
-  Vec2 offset;           ///< Σ m arm: of round-off                                      [kg]
+  Vec2 offset;           ///< Σ m arm, nonzero by round-off                              [kg]
   double inertia = 0.0;  ///< Σ m |arm|²                                                 [kg m]
 
   [[nodiscard]] bool held() const noexcept { return body < 0; }
@@ -40,9 +40,9 @@ struct BodyPlan {
   std::vector<int> row;           ///< (n) of each node; -1: clamped
   std::size_t n_packs = 0;
   RowPacks matrix;
-  LargeArray constants;  ///< as in kernels::BodyFields
+  LargeArray constants;  ///< constants of the rows, see kernels::BodyFields
 
-  /// Where in `motion` or `constants` the first number of a row is: four a row, lanes apart.
+  /// Place of the first number of a row in `motion` or `constants`: four a row, lanes apart.
   [[nodiscard]] static std::size_t at(int at_row) noexcept {
     const auto i = static_cast<std::size_t>(at_row);
     return i / kernels::lanes * 4 * kernels::lanes + i % kernels::lanes;

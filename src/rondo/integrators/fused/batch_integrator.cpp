@@ -132,7 +132,7 @@ std::size_t BatchIntegrator::part_of_tail(std::size_t tail) const noexcept {
   return n_parts_ - (corners_ ? 1 : 0) - tails_.size() + tail;
 }
 
-/// Where corners are near, or there are tails, step by step.
+/// Makes the steps one by one where corners are near, or there are tails.
 void BatchIntegrator::make_batch(const Batch& batch, Share share) noexcept {
   if (tails_.empty() && (!corners_ || !corners_->any_near() || within_))
     return make_steps(batch, share);

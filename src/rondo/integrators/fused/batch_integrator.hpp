@@ -98,7 +98,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
 
   const int threads_;
   const std::size_t n_pressures_;
-  std::vector<StepContext> steps_;  ///< of a batch
+  std::vector<StepContext> steps_;  ///< steps of a batch
   std::vector<double> pressures_;   ///< (steps of a batch, n_pressures_)                  [Pa]
   std::vector<PartialStep> parts_;  ///< (steps of a batch, n_parts_)
   std::vector<RubberEnergy> rubber_energy_;  ///< (steps of a batch) of rubber alone
@@ -107,7 +107,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   std::optional<CornerContact> corners_;
   std::optional<LoadedRim> rim_;
   std::vector<std::unique_ptr<StepTail>> tails_;
-  kernels::WheelWay way_{};  ///< of the step in hand, on a loaded rim
+  kernels::WheelWay way_{};  ///< factors of the step in hand, on a loaded rim
   bool within_ = false;      ///< corners are near, and make_steps() takes care of them
   Barrier barrier_;
   Ledger ledger_;

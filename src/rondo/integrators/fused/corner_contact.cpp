@@ -86,10 +86,10 @@ CornerContact::CornerContact(const Model& model)
       is_held_(boundary_.n_nodes()),
       load_of_(loads_of(model)) {}
 
-/// A touch is half an edge deep at the most. Who moves no more than twice as fast as the fastest
-/// candidate now, or two edges in the batch (of some 16 edges that a wave passes), is not missed;
-/// impacts are as fast as the corner is in the turning frame, whose path counts besides. Whether
-/// it was so, unseen() tells.
+/// A touch is half an edge deep at the most. A node is not missed if it moves no more than twice as
+/// fast as the fastest candidate now, or two edges in the batch (a wave passes some 16 edges).
+/// Impacts are as fast as the corner is in the co-rotating frame, whose path counts besides.
+/// unseen() tells whether it was so.
 CornerContact::Extent CornerContact::extent(std::size_t n_steps,
                                             const CandidateFields& fields) noexcept {
   double farthest = 0.0, fastest = 0.0;
@@ -148,7 +148,7 @@ double CornerContact::unseen(const CandidateFields& fields, double astray) const
              : 0.0;
 }
 
-/// In the turning frame, where the corner moves and the boundary is nearly at rest.
+/// Looks in the co-rotating frame, where the corner moves and the boundary is nearly at rest.
 void CornerContact::look_at(std::size_t corner, std::span<const StepContext> steps,
                             const Extent& e) {
   const Vec2 position = boundary_.contact->ground.corners()[corner].position;

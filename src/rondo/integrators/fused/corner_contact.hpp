@@ -14,7 +14,7 @@
 
 namespace rondo::dynamics {
 
-/// A candidate between two steps, turning frame.
+/// Motion of a candidate between two steps, in the co-rotating frame.
 struct CandidateMotion {
   Vec2 u;        ///< u_{n+1}                                                         [m]
   Vec2 v;        ///< v_{n+1/2}; with a loaded rim V in the axes of R_n                   [m/s]
@@ -24,7 +24,7 @@ struct CandidateMotion {
   Vec2 internal{};
 };
 
-/// What a fused integrator lets be seen and changed of single candidates, between two steps.
+/// Single candidates of a fused integrator, to be seen and changed between two steps.
 class CandidateFields {
  public:
   /// @param candidate place in ContactModel::nodes
@@ -52,8 +52,8 @@ class CornerContact {
   /// Candidates that may be held in the batch, and their neighbours.
   [[nodiscard]] std::span<const int> nodes() const noexcept { return nodes_; }
 
-  // Where corners are near, around each step:
-  /// What corners touch, and who is held by them.
+  // Around each step, where corners are near:
+  /// Finds what the corners touch, and the candidates that they hold.
   void find(const StepContext& step, const CandidateFields& fields) noexcept;
   /// Impulses on what is held, its velocities and u; sums and contacts of the step.
   void solve(const StepContext& step, CandidateFields& fields, PartialStep& part) noexcept;
@@ -91,16 +91,16 @@ class CornerContact {
   [[nodiscard]] Vec2 load_on(const StepContext& step, std::size_t candidate) const noexcept;
 
   const Model boundary_;  ///< the candidates alone, in their order, on the same ground
-  State state_;           ///< of these; only what is near is kept up
+  State state_;           ///< state of the candidates; only what is near is kept up
   GeneralContact contact_;
   std::vector<NearCorner> near_;  ///< the first n_near_ count
   std::size_t n_near_ = 0;
   std::vector<Vec2> begin_;      ///< (nb) u where the batch began                           [m]
-  std::vector<Box> edge_boxes_;  ///< there, turning frame                                [m]
-  double farthest_ = 0.0;        ///< from the center                                         [m]
-  double way_ = 0.0;             ///< that a candidate may come from there                   [m]
-  Box around_{};                 ///< that holds the boundary in the batch, way_ beside it    [m]
-  std::vector<int> nodes_;       ///< of the near edges and their neighbours
+  std::vector<Box> edge_boxes_;  ///< boxes of the edges there, co-rotating frame         [m]
+  double farthest_ = 0.0;        ///< largest distance of a candidate from the center         [m]
+  double way_ = 0.0;             ///< way that a candidate may come from there               [m]
+  Box around_{};                 ///< box that holds the boundary in the batch, way_ beside it [m]
+  std::vector<int> nodes_;       ///< nodes of the near edges and their neighbours
   std::vector<char> wanted_;     ///< (nb) is in nodes_
   std::vector<Held> held_;
   std::vector<char> is_held_;                    ///< (nb)

@@ -136,7 +136,7 @@ void CyclicChunk::load(const State& state) {
   show_to_others();
 }
 
-/// Of the velocities it is V in the axes of R_n that is carried; u_n stays.
+/// Sets the velocities that are carried, which are V in the axes of R_n; u_n stays.
 void CyclicChunk::load_on_rim(const State& state) {
   LoadedRim rim(model_);
   rim.restore(state.step, state.rim);
@@ -177,7 +177,7 @@ void CyclicChunk::copy_in(int row, RowField which, const double* x, const double
   if (which == RowField::u && plan_.halo == Halo::ring) wrap(layout(), row, field_now());
 }
 
-/// What is right of the chunk's own nodes, where it is read for the next pass.
+/// Shows the values of the chunk's own nodes where they are read for the next pass.
 void CyclicChunk::show_to_others() noexcept {
   if (plan_.halo != Halo::ring) return give_edges();
   for (int a = 0; a < plan_.n_local; ++a) wrap(layout(), a, field_now());

@@ -30,7 +30,7 @@ class CyclicChunk {
   void save_displacement(bool candidates, std::span<Vec2> u) const noexcept;
   void save_velocity(std::span<Vec2> v) const noexcept;
 
-  /// What neighbours need of this chunk for the pass to come.
+  /// Gives the neighbours what they need of this chunk for the pass to come.
   void give_edges() noexcept { edges_.give(layout(), edge_fields(), passes_); }
   /// @pre the neighbours have made as many passes, or one more, and given their edges after each.
   void take_halo(const CyclicChunk& left, const CyclicChunk& right) noexcept {
@@ -65,7 +65,7 @@ class CyclicChunk {
 
  private:
   static constexpr int group_columns = kernels::group_packs * kernels::lanes;
-  /// Of a row, components each; u of even and of odd steps.
+  /// Place of the first component of each field in a row; u of even and of odd steps.
   enum Field { field_u_even = 0, field_u_odd = 2, field_v = 4, field_force = 6 };
   /// Columns of the chunk that a step of a pass works on.
   struct Extent {
@@ -94,9 +94,9 @@ class CyclicChunk {
   struct Work {
     const StepContext* step;
     Extent extent;
-    std::size_t place;       ///< of the step in the pass
+    std::size_t place;       ///< number of the step in the pass
     int now, next;           ///< fields of u before and after the step
-    bool last;               ///< of the pass
+    bool last;               ///< the step is the last of the pass
     CornerContact* corners;  ///< null: none hold nodes of this chunk
     PartialStep* held;       ///< their part of the step
   };
@@ -133,7 +133,7 @@ class CyclicChunk {
   const kernels::Table& table_;
   CyclicChunkRange range_;
   LargeArray fields_;
-  std::vector<double> turn_x_, turn_y_;  ///< of the columns, from the halo on the left
+  std::vector<double> turn_x_, turn_y_;  ///< cos φ, sin φ of the columns, from the halo on the left
   LargeArray loads_;                     ///< (loads, 2) `stride` apart, as the plan has them  [m]
   LargeArray sums_;                      ///< (depth, groups, n_sums, lanes)
   std::vector<PartialStep> contact_;     ///< (depth, groups): of these the contacts' part

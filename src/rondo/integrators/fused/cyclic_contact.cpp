@@ -69,7 +69,7 @@ void CyclicChunk::find_touching(const Work& work, int a) noexcept {
   }
 }
 
-/// What a contact's impulse adds to the sums, and where it leaves the node.
+/// Adds to the sums what a contact's impulse changes, and puts the node where it leaves it.
 void CyclicChunk::take_impulse(const Work& work, const Touching& t, const ContactNode& node,
                                Vec2 after, StepSums* sums) noexcept {
   const Complex frame = turn(t.column);
@@ -102,7 +102,7 @@ void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
   const std::span active(contacts.data(), static_cast<std::size_t>(t.touches.count));
   ContactReport report;
   const Vec2 after = solve_contacts(*work.step->contact, node, t.touches, active, report);
-  // Of a neighbour's node it is the neighbour who reports.
+  // The neighbour reports the contacts of its own nodes.
   const bool own = t.column >= 0 && t.column < range_.columns;
   PartialStep* part = own ? &contact_[work.place * range_.n_groups +
                                       static_cast<std::size_t>(t.column / group_columns)]

@@ -48,7 +48,7 @@ class CyclicIntegrator::Rows final : public NodeFields {
 
   CyclicIntegrator& of_;
   std::size_t row_size_;
-  std::vector<int> rows_;  ///< of the sector's stiffness
+  std::vector<int> rows_;  ///< rows of the sector's stiffness
 };
 
 CyclicIntegrator::~CyclicIntegrator() = default;

@@ -40,7 +40,7 @@ class CyclicIntegrator : public BatchIntegrator {
 
   CyclicPlan plan_;
   std::vector<CyclicChunk> chunks_;
-  std::vector<std::unique_ptr<Rows>> rows_;  ///< as the tails see them
+  std::vector<std::unique_ptr<Rows>> rows_;  ///< rows as the tails see them
   std::size_t holder_ = 0;                   ///< the chunk that has all candidates near corners
 };
 

@@ -82,7 +82,7 @@ double deviation(const std::array<double, 4>& here, const std::array<double, 4>&
                    std::abs(left[2] + right[2])});
 }
 
-/// Where a sector is one line of nodes and its own mirror, as that of a smooth disk, a row needs
+/// If a sector is one line of nodes and its own mirror, as that of a smooth disk, a row needs
 /// half of the products.
 void add_mirror(const SectorStiffness& k, CyclicPlan& plan) {
   const int n = plan.n_local;

@@ -39,14 +39,14 @@ struct RingCut {
   std::size_t n_groups = 0;
 };
 
-/// What a load does on a row.
+/// The forces of a load on a row.
 struct CyclicLoad {
   int row = 0;
   int load = 0;             ///< place in Model::pressures
   std::vector<Vec2> force;  ///< (N) per pressure, in the sectors' frames             [m]
 };
 
-/// Where a candidate is.
+/// The place of a candidate.
 struct CyclicPlace {
   int row = 0, sector = 0;
 };
@@ -90,7 +90,7 @@ struct CyclicPlan {
   static constexpr std::ptrdiff_t lead = 2 * halo_columns;
 };
 
-/// What the cut is fitted to. The bits of the results do not depend on it.
+/// Sizes that the cut is fitted to. The bits of the results do not depend on them.
 struct CyclicTuning {
   /// Fields below this stay in the cache of a core from step to step: no passes of several steps.
   std::size_t cache_bytes = 1'200'000;

@@ -30,8 +30,8 @@ std::vector<int> reverse_cuthill_mckee(const fem::BlockCsr& k, std::span<const i
 /// Not the maximum: on a ring numbered sector by sector that is the one seam, which costs nothing.
 std::vector<int> row_order(const fem::BlockCsr& k, std::span<const int> nodes);
 
-/// The same, rows of a length brought together over a distance that the cache does not feel, long
-/// ones first. @param k whose rows are packed, on the nodes of `order`
+/// Brings rows of one length in `order` together, long ones first, over a distance that the cache
+/// does not feel. @param k whose rows are packed, on the nodes of `order`
 void sort_by_length(const fem::BlockCsr& k, std::vector<int>& order);
 
 /// K in packs of eight rows, each as long as its longest: zero blocks on their own row fill the

@@ -10,7 +10,7 @@
 
 namespace rondo::dynamics {
 
-/// Where the fields of a chunk are: rows, in them fields, in them components, `stride` apart.
+/// Memory of the fields of a chunk: rows, in them fields, in them components, `stride` apart.
 struct ChunkFields {
   double* first;  ///< field 0 of row 0, sector 0
   std::ptrdiff_t row_size, stride;
@@ -27,8 +27,8 @@ void wrap(const ChunkFields& chunk, int row, int field) noexcept;
 class RingEdges {
  public:
   RingEdges() = default;
-  /// Of a wide halo, which is advanced, u, v and with `keeps_force` the force; of a narrow one,
-  /// which is only read, u. @pre halo is not Halo::ring
+  /// A wide halo, which is advanced, takes u, v and with `keeps_force` the force; a narrow one,
+  /// which is only read, takes u. @pre halo is not Halo::ring
   RingEdges(Halo halo, bool keeps_force, int n_rows, int components);
 
   /// @param fields of u, v and the force, at the end of the pass

@@ -134,7 +134,7 @@ void SparseIntegrator::load(const State& start) {
   if (plan_.wheel) load_on_rim(start);
 }
 
-/// Of the velocities it is V in the axes of R_n that is carried; u_n stays.
+/// Sets the velocities that are carried, which are V in the axes of R_n; u_n stays.
 void SparseIntegrator::load_on_rim(const State& start) {
   LoadedRim rim(model_);
   rim.restore(start.step, start.rim);
@@ -291,7 +291,7 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
   if (work.last) all.insert(all.end(), active.begin(), active.end());
 }
 
-/// What elements and K do on a row.
+/// The force of the elements and K on a row.
 Vec2 SparseIntegrator::force_on(const double* now, int row) const noexcept {
   const auto r = static_cast<std::size_t>(row);
   Vec2 force = rubber_->force_on(row);
@@ -369,8 +369,8 @@ void SparseIntegrator::go_on(const kernels::WheelWay& way, long long step, Share
   }
 }
 
-/// What fills up the last pack has no mass and no stiffness, but the pull and the frame move it:
-/// without end, as nothing holds it.
+/// Puts the rows that fill up the last pack to rest: they have no mass and no stiffness, but the
+/// pull and the frame would move them without end, as nothing holds them.
 void SparseIntegrator::rest_padding(double* next) noexcept {
   for (std::size_t i = plan_.node.size(); i < plan_.n_packs * lanes; ++i) {
     put(motion_.data() + motion_at(i), {});
@@ -402,7 +402,7 @@ void SparseIntegrator::evaluate_rubber(const Work& work, Share share) noexcept {
 /// it must be there.
 void SparseIntegrator::make_steps(const Batch& batch, Share share) noexcept {
   const std::size_t n = plan_.n_blocks;
-  // Of this thread, and of those that are not there this time.
+  // Contacts of this thread, and of those that are not there this time.
   for (std::size_t k = share.thread; k < contacts_.size(); k += share.n_threads)
     contacts_[k].active.clear();
   for (std::size_t i = 0; i < batch.steps.size(); ++i) {

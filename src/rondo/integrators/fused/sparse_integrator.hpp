@@ -33,8 +33,8 @@ class SparseIntegrator : public BatchIntegrator {
   };
   /// Contacts of a thread's blocks.
   struct Contacts {
-    std::vector<Touching> touching;     ///< of the block in hand
-    std::vector<ActiveContact> active;  ///< of the last step of the batch
+    std::vector<Touching> touching;     ///< candidates that touch in the block in hand
+    std::vector<ActiveContact> active;  ///< contacts of the last step of the batch
   };
   /// The step in hand.
   struct Work {
@@ -43,7 +43,7 @@ class SparseIntegrator : public BatchIntegrator {
     double* next;        ///< u_{n+2}
     PartialStep* parts;  ///< (blocks)
     Contacts* contacts;
-    bool last;             ///< of the batch
+    bool last;             ///< the step is the last of the batch
     RubberEnergy* rubber;  ///< to be filled, where there is rubber
   };
 
@@ -62,7 +62,7 @@ class SparseIntegrator : public BatchIntegrator {
   void save_active(std::vector<ActiveContact>& active) const noexcept override;
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
   void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
-  /// Where in motion_ a row's v_x is.
+  /// The place of a row's v_x in motion_.
   [[nodiscard]] std::size_t motion_at(std::size_t row) const noexcept;
   /// Which u is u_{n+1}.
   [[nodiscard]] static std::size_t parity(long long n) noexcept {
@@ -84,11 +84,11 @@ class SparseIntegrator : public BatchIntegrator {
   const kernels::Table& table_;
   SparsePlan plan_;
   std::array<LargeArray, 2> u_;              ///< (rows, 2) of even and of odd steps
-  LargeArray motion_;                        ///< as in kernels::SparseRows
+  LargeArray motion_;                        ///< motion of the rows, see kernels::SparseRows
   std::optional<RubberForces> rubber_;       ///< absent: K is all
   std::optional<FollowingLoads> following_;  ///< absent: no loads, or they stay as they are
-  std::vector<Contacts> contacts_;           ///< of each thread
-  std::vector<std::unique_ptr<Rows>> rows_;  ///< as the tails see them
+  std::vector<Contacts> contacts_;           ///< contacts of each thread
+  std::vector<std::unique_ptr<Rows>> rows_;  ///< rows as the tails see them
 };
 
 }  // namespace rondo::dynamics

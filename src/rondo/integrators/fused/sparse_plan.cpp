@@ -65,7 +65,7 @@ void add_contact(const Model& model, const std::vector<int>& row, SparsePlan& pl
   }
 }
 
-/// What each load does on each pack that it acts on.
+/// Adds the forces of each load on each pack that it acts on.
 void add_loads(const Model& model, const std::vector<int>& row, SparsePlan& plan) {
   std::map<std::pair<std::size_t, int>, std::array<Vec2, lanes>> loads;  // by pack and load
   for (const NodalLoad& l : nodal_loads(model)) {

@@ -28,8 +28,8 @@ struct SparsePlan {
   std::size_t n_packs = 0;
   std::size_t n_blocks = 1;
   RowPacks matrix;
-  LargeArray constants;  ///< as in kernels::SparseRows
-  // Of loads on nodes; empty: there are none.
+  LargeArray constants;  ///< constants of the rows, see kernels::SparseRows
+  // Loads on nodes; empty: there are none.
   std::vector<int> first_load, load_of;
   LargeArray loads;
   std::vector<SparseCandidate> candidates;   ///< ascending rows

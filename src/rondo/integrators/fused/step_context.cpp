@@ -4,7 +4,7 @@
 namespace rondo::dynamics {
 namespace {
 
-/// What is different in three dimensions.
+/// Adds what is different in three dimensions.
 void add_axial(const Model& model, const FrameStep& f, const VelocityUpdate& update,
                StepContext& s) noexcept {
   const double dt = model.dt, axial_a = 1.0 + 0.5 * dt * model.mass_damping;

@@ -11,7 +11,7 @@
 
 namespace rondo::dynamics {
 
-/// What the axial components of a step have for themselves.
+/// Factors of a step for the axial components alone.
 struct AxialFactors {
   double pull = 0.0;     ///< Δt (c̈ - g) along the axle                              [m/s]
   double inverse = 0.0;  ///< 1/A, A = 1 + Δt α/2
@@ -28,25 +28,25 @@ struct StepContext {
   std::optional<ContactStep> contact;
   AxialFactors axial;                             ///< in three dimensions
   std::optional<SolidContactStep> solid_contact;  ///< instead of `contact`, in three dimensions
-  const double* pressures = nullptr;  ///< of Model::pressures, or SolidBody::pressures, at t_n [Pa]
+  const double* pressures = nullptr;  ///< Model::pressures, or SolidBody::pressures, at t_n [Pa]
   /// (nb) candidates whose contacts are solved by CornerContact; null: none.
   const char* held = nullptr;
 };
 
 /// @param frame of the step, by the rim
 StepContext step_context(const Model& model, const FrameStep& frame) noexcept;
-/// Of a step whose velocity before has been in the axes of the frame that `back` + 1 turns to this.
+/// Context of a step on a loaded rim; `back` + 1 turns the axes of the velocity before to its own.
 StepContext wheel_context(const Model& model, const FrameStep& frame, Complex back) noexcept;
 
 /// Raw sums: kernels::Sum, or kernels::WheelSum.
 using StepSums = std::array<double, kernels::most_sums>;
 
-/// Of all lanes of a kernel's sum, in pairs, so that few sums wait for others.
+/// Sum of all lanes of a kernel's sum, in pairs, so that few additions wait for others.
 inline double sum_of_lanes(const double* x) noexcept {
   return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 
-/// What a part of the body gives in one step: raw sums, and its contacts.
+/// The results of a part of the body in one step: raw sums, and its contacts.
 struct PartialStep {
   StepSums sums{};
   ContactReport contact;
@@ -65,7 +65,7 @@ struct NodeForces {
 /// @param node  arm, velocities before and without impulse; `after`: v⁺.
 void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
                   const NodeForces& forces, StepSums& sums) noexcept;
-/// The same with a loaded rim.
+/// Does the same as correct_sums() with a loaded rim.
 void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& forces,
                         StepSums& sums) noexcept;
 

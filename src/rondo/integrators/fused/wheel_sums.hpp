@@ -7,7 +7,7 @@
 
 namespace rondo::dynamics {
 
-/// Of all parts, in their order.
+/// Adds the sums of all parts, in their order.
 [[nodiscard]] StepSums wheel_sums(std::span<const PartialStep> parts) noexcept;
 
 [[nodiscard]] RimForce rim_force(const StepContext& step, const StepSums& sums) noexcept;

@@ -22,7 +22,7 @@ struct BodyFrame {
 class BodyFrames {
  public:
   BodyFrames(const Model& model, const FrameStep& turning) noexcept;
-  /// Where no body is free.
+  /// For models in which no body is free.
   explicit BodyFrames(const BodyFrame& turning) noexcept : turning_(turning), fixed_(turning) {}
 
   [[nodiscard]] const BodyFrame& of(const Model& model, std::size_t node) const noexcept {

@@ -116,7 +116,7 @@ void ContactFinder::find(const State& state, std::vector<ContactRow>& rows) {
   if (model_.surfaces) find_segments(rows);
 }
 
-/// What may touch while no node comes farther than the slack.
+/// Finds what may touch while no node comes farther than the slack.
 void ContactFinder::find_near() {
   // Corners of the ground look at all edges.
   slack_ = ground_side_.edges.empty() ? std::numeric_limits<double>::infinity() : 0.0;
@@ -280,7 +280,7 @@ void ContactFinder::find_segments(std::vector<ContactRow>& rows) {
     find_touches(at(candidates[i]), near_edges_.edges_near(i), rows);
 }
 
-/// Of a candidate on the edges near it that face it.
+/// Finds the touches of a candidate on the edges near it that face it.
 void ContactFinder::find_touches(std::size_t i, std::span<const int> near,
                                  std::vector<ContactRow>& rows) {
   const SurfaceContact& s = *model_.surfaces;

@@ -17,7 +17,7 @@ namespace rondo::dynamics {
 /// A sharp corner of the ground and the edges that it may touch.
 struct NearCorner {
   std::size_t corner = 0;  ///< place in Ground::corners()
-  std::vector<int> edges;  ///< of ContactModel::edges, ascending
+  std::vector<int> edges;  ///< numbers of ContactModel::edges, ascending
 };
 
 class ContactFinder {
@@ -38,7 +38,7 @@ class ContactFinder {
   }
   /// Times that it looked at all edges between bodies.
   [[nodiscard]] long long builds() const noexcept { return near_edges_.builds(); }
-  /// Of these corners alone, and the ground at the nodes that they touch.
+  /// Finds the contacts of these corners alone, and of the ground at the nodes that they touch.
   /// @param nodes of the edges, and of the two edges on either side of each
   void find_at_corners(const State& state, std::span<const NearCorner> near,
                        std::span<const int> nodes, std::vector<ContactRow>& rows);
@@ -88,7 +88,7 @@ class ContactFinder {
   double slack_ = 0.0;            ///< how far nodes may come before all are looked at     [m]
   bool near_alone_ = false;       ///< the next find() looks at what is near alone
   std::vector<int> near_ground_;  ///< candidates, ascending
-  std::vector<int> near_nodes_;   ///< of what is near, ascending
+  std::vector<int> near_nodes_;   ///< nodes of what is near, ascending
   std::vector<char> is_near_;     ///< (n)
   std::vector<int> facing_;       ///< edges near a node that face it
   std::vector<std::pair<std::size_t, int>> corner_edges_;  ///< corners and edges near each other

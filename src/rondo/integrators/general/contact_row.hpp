@@ -21,14 +21,14 @@ inline constexpr unsigned key_bits_of_edge = 31;
 struct ContactRow {
   ContactKind kind = ContactKind::facet;
   contact::ContactRows rows;
-  std::uint64_t key = 0;   ///< the same contact has the same in the next step
+  std::uint64_t key = 0;   ///< name of the contact, the same in the next step
   Vec2 normal;             ///< fixed frame; what r acts on is pushed along it
-  Vec2 point;              ///< that touches the facet or the segment, fixed frame  [m]
+  Vec2 point;              ///< point that touches the facet or the segment, fixed frame [m]
   double turning = 0.0;    ///< by which the gap opens faster than w_n, as the segment turns during
                            ///< the step (4.8c); joins w_n in the law               [m/s]
   double gap = 0.0;        ///< <= 0                                                [m]
   double tributary = 0.0;  ///< boundary that it stands for                         [m]
-  const contact::Law* law = nullptr;  ///< of the ground, or between bodies
+  const contact::Law* law = nullptr;  ///< law of the ground, or between bodies
   Vec2 before, free, after;  ///< w⁻, w without impulses, w⁺                          [m/s]
   double bounce = 0.0;       ///< ε of the law (4.3)                                  [m/s]
   double friction = 0.0;     ///< μ of the law                                        [-]

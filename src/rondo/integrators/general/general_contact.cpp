@@ -91,7 +91,7 @@ ContactReport GeneralContact::solve_found(const BodyFrames& frames, Vec2 center,
   return report;
 }
 
-/// What a candidate feels stands together, in its order, for those who add it up. In memory that is
+/// Puts together what a candidate feels, in its order, for those who add it up. In memory that is
 /// kept: std::stable_sort takes some of its own.
 void GeneralContact::sort_by_candidate(std::vector<ActiveContact>& active) {
   order_.clear();
@@ -157,7 +157,7 @@ bool GeneralContact::came_round_an_end(const ContactRow& row) const noexcept {
   return (foot <= way && beside[0] < 0) || (length - foot <= way && beside[1] < 0);
 }
 
-/// What was behind its segment in the step before already, and was found behind none then, has been
+/// A point that was behind its segment in the step before, and was found behind none then, has been
 /// met by nothing. In the first step of a run it may start so. A boundary that is bent by much has
 /// such places at its joints (4.8a), of a depth that does no harm.
 void GeneralContact::look_for_late(const BodyFrames& frames, ContactReport& report) const noexcept {

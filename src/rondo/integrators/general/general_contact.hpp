@@ -25,10 +25,10 @@ class GeneralContact {
   /// Candidates whose contacts are solved elsewhere. @param held (nb)
   void leave_out(std::vector<char> held) { held_ = std::move(held); }
 
-  // The same in two parts: found at u, solved once the velocities without impulses are there.
-  /// As ContactFinder::find.
+  // solve() in two parts: find() at u, then solve_found() with velocities without impulses.
+  /// See ContactFinder::find.
   std::span<const ContactRow> find(const State& state);
-  /// As ContactFinder::find_at_corners. @return the contacts; each node of theirs has all of its
+  /// See ContactFinder::find_at_corners. @return the contacts; each node of theirs has all of its
   /// own
   std::span<const ContactRow> find_at_corners(const State& state, std::span<const NearCorner> near,
                                               std::span<const int> nodes);
@@ -40,13 +40,13 @@ class GeneralContact {
   /// first few of them.
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() { return difficult_.take(); }
 
-  /// Of the step before, by contact, ascending: from these the coupled contacts start.
+  /// Impulses of the step before, by contact, ascending: the coupled contacts start from them.
   using KeptImpulses = std::vector<std::pair<std::uint64_t, Vec2>>;
   [[nodiscard]] const KeptImpulses& impulses() const noexcept { return kept_; }
   void set_impulses(KeptImpulses impulses) noexcept { kept_ = std::move(impulses); }
 
  private:
-  using Rows = std::span<const int>;  ///< of one cluster
+  using Rows = std::span<const int>;  ///< rows of one cluster
 
   [[nodiscard]] double turning_of(const BodyFrames& frames, const ContactRow& row,
                                   const State& state) const;
@@ -81,7 +81,7 @@ class GeneralContact {
   contact::DelassusBuilder delassus_;
   contact::CoupledProblem problem_;
   contact::CoupledWorkspace workspace_;
-  std::vector<Vec2> impulse_, start_;  ///< of a cluster: found, and warm start
+  std::vector<Vec2> impulse_, start_;  ///< impulses of a cluster: found, and warm start
   std::vector<contact::Status> status_;
   KeptImpulses kept_;
   contact::DifficultProblems difficult_;

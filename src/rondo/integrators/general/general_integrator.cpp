@@ -152,7 +152,7 @@ void GeneralIntegrator::add_works(const BodyFrames& frames, Works& w) const noex
   });
 }
 
-/// Where nothing is held, those who look on see the first body's place and rotation.
+/// Reports the first body's place and rotation where nothing is held.
 void GeneralIntegrator::report_frame(StepReport& report) const noexcept {
   report.frame = state_.frame;
   std::size_t n_free = 0;

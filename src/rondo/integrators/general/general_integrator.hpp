@@ -52,9 +52,9 @@ class GeneralIntegrator final : public Integrator, public Resumable {
   GeneralContact contact_;
   std::optional<MasslessContact> ring_;  ///< instead of contact_, where contact nodes have no mass
   std::unique_ptr<ImplicitElements> implicit_;  ///< null: there are none
-  PlaneField implicit_velocity_;                ///< of their nodes                      [m/s]
+  PlaneField implicit_velocity_;                ///< velocities of their nodes           [m/s]
   std::vector<Vec2> damping_;  ///< (n) β of the force, in the nodes' frames; empty: β = 0 [N/m]
-  std::vector<Vec2> load_;     ///< (n) of pressures; empty: none                        [N/m]
+  std::vector<Vec2> load_;     ///< (n) forces of pressures; empty: none                 [N/m]
 };
 
 }  // namespace rondo::dynamics

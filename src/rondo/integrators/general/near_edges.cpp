@@ -13,7 +13,7 @@ namespace {
 /// How much farther than the reach edges are looked for, over it. Half of it may then be come by
 /// the candidate and half by the edge; a little less, for places are rounded.
 constexpr double skin = 2.0, travel = 0.499;
-/// Of more bodies the grid is asked for all nodes.
+/// With more bodies the grid is asked for all nodes.
 constexpr std::size_t most_boxes = 16;
 
 void widen(Box& box, Vec2 x, double by) noexcept {

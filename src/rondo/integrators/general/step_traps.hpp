@@ -12,8 +12,8 @@
 
 namespace rondo::dynamics {
 
-/// As long as it lives. RONDO_TRAPS=off in the environment, looked up each time: no traps, for
-/// tests of runs that are meant to blow up.
+/// Sets the traps as long as it lives. RONDO_TRAPS=off in the environment, looked up each time: no
+/// traps, for tests of runs that are meant to blow up.
 class StepTraps {
  public:
   StepTraps(const StepTraps&) = delete;

@@ -31,7 +31,7 @@ class WheelIntegrator final : public Integrator, public Resumable {
   /// Forces on the nodes in the co-rotating frame, n each [N/m]: the gradient is of the material.
   struct Forces {
     std::vector<Vec2> damping;  ///< β times the rate of the gradient; empty: β = 0
-    std::vector<Vec2> load;     ///< of pressures; empty: none
+    std::vector<Vec2> load;     ///< forces of pressures; empty: none
     std::vector<Vec2> all;      ///< q: gradient, damping, and α m v⁻
   };
   StepReport step() noexcept;
@@ -59,7 +59,7 @@ class WheelIntegrator final : public Integrator, public Resumable {
   const std::unique_ptr<InternalForce> internal_;
   GeneralContact contact_;
   Forces forces_;
-  RimForce rim_load_;  ///< of pressures on clamped nodes
+  RimForce rim_load_;  ///< force of the pressures on clamped nodes
 };
 
 }  // namespace rondo::dynamics

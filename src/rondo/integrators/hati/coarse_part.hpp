@@ -22,9 +22,9 @@ class CoarsePart {
   void attempt(Vec2 pull, std::span<const Vec2> multiplier);
   void accept();
 
-  /// Of the last attempt: (interface) by which the nodes moved                        [m]
+  /// (interface) by which the nodes moved in the last attempt                         [m]
   [[nodiscard]] std::span<const Vec2> travel() const noexcept { return travel_; }
-  /// Of what was accepted last.
+  /// Works of the step that was accepted last.
   [[nodiscard]] const Works& works() const noexcept { return works_; }
   [[nodiscard]] const PartFields& fields() const noexcept { return fields_; }
   void add_energy(double& kinetic, double& strain);

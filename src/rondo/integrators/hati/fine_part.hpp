@@ -15,7 +15,7 @@ struct PartFields {
   Field u, v;  ///< (n) 0 where the part has no nodes                    [m], [m/s]
 };
 
-/// What the contacts of a fine step found.
+/// The contacts that a fine step found.
 struct FineContact {
   ContactReport report;
   std::vector<ActiveContact> active;  ///< by candidate
@@ -32,22 +32,22 @@ class FinePart {
   /// The fine steps of the n-th coarse one, n >= 1, from fields(), which stay as they are.
   /// @param multiplier (interface) force on these nodes                               [N/m]
   void attempt(long long n, std::span<const Vec2> multiplier);
-  /// What was attempted last becomes what is.
+  /// Accepts what was attempted last.
   void accept();
 
-  // Of the last attempt --------------------------------------------------------------------------
+  // Results of the last attempt ------------------------------------------------------------------
   /// (interface) by which the nodes moved                                             [m]
   [[nodiscard]] std::span<const Vec2> travel() const noexcept { return travel_; }
   /// (m)
   [[nodiscard]] std::span<const FineContact> contacts() const noexcept { return contacts_; }
   /// The contacts found the same impulses, to the bit, as in the attempt before.
   [[nodiscard]] bool same_impulses() const noexcept;
-  /// Of all fine steps, the contacts' among them.
+  /// Works of all fine steps, those of the contacts among them.
   [[nodiscard]] const Works& works() const noexcept { return works_; }
   /// Rᵀ(c̈ - g), mean over the kicks: what B feels of it                               [m/s²]
   [[nodiscard]] Vec2 pull() const noexcept { return pull_; }
 
-  // Of what was accepted last --------------------------------------------------------------------
+  // State that was accepted last -----------------------------------------------------------------
   [[nodiscard]] const PartFields& fields() const noexcept { return fields_; }
   void add_energy(double& kinetic, double& strain);
   [[nodiscard]] const GeneralContact::KeptImpulses& impulses() const noexcept { return kept_; }
@@ -68,12 +68,12 @@ class FinePart {
   void add_works(const FrameStep& frame) noexcept;
   void solve_contacts(const BodyFrames& frames, FineContact& found);
 
-  const Model model_;  ///< of A alone, with the fine step
+  const Model model_;  ///< model of A alone, with the fine step
   const std::vector<int> interface_;
   const int ratio_;
   PartFields fields_;
   GeneralContact::KeptImpulses kept_;
-  State state_;  ///< of the attempt: u; v⁻, and v⁺ in v_next
+  State state_;  ///< state of the attempt: u; v⁻, and v⁺ in v_next
   GeneralContact contact_;
   std::vector<FineContact> contacts_, contacts_before_;  ///< (m)
   std::vector<Vec2> force_, rate_;                       ///< (n) K u + β K v⁻ - λ, K v⁻

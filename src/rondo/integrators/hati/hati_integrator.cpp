@@ -67,7 +67,7 @@ void HatiIntegrator::correct_multiplier() noexcept {
     multiplier_[i] -= Vec2{change_[row_of_node(i)], change_[row_of_node(i) + 1]};
 }
 
-/// Of the last attempt of A, of B's step accepted last.
+/// Works of A's last attempt, and of B's step that was accepted last.
 Works HatiIntegrator::works() const noexcept {
   Works w = fine_.works();
   w.frame += coarse_.works().frame;
@@ -117,7 +117,7 @@ void HatiIntegrator::advance(std::span<StepReport> reports, State* last) noexcep
   merge_contacts(fine_.contacts(), last->active);
 }
 
-/// Where the parts meet, A's displacement, which is B's to round-off, and the mean velocity.
+/// Nodes where the parts meet get A's displacement, which is B's to round-off, and a mean velocity.
 void HatiIntegrator::fill_displacement(Field& u) const noexcept {
   u = coarse_.fields().u;
   for (const int node : parts_.fine.free) u.plane()[at(node)] = fine_.fields().u.plane()[at(node)];

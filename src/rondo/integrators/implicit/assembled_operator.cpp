@@ -66,7 +66,7 @@ class Assembled final : public ImplicitOperator {
 
  private:
   fem::BlockCsr stiffness_;  ///< K_I of the nodes
-  BlockLu factor_;           ///< of A
+  BlockLu factor_;           ///< factor of A
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace rondo::dynamics {
 namespace {
 
-constexpr int lanes = 8;  ///< of the loop
+constexpr int lanes = 8;  ///< lanes of the loop
 
 }  // namespace
 

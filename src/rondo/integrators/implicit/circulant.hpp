@@ -59,7 +59,7 @@ class Circulant {
   int rows_, sectors_;
   RingProduct product_;
   std::vector<Level> levels_;
-  Matrix inverse_;  ///< of what is left of `here`
+  Matrix inverse_;  ///< inverse of what is left of `here`
   RingRows work_;
 };
 

@@ -53,7 +53,7 @@ void ImplicitContact::fill_column(std::size_t of, ImplicitOperator& implicit) {
   }
 }
 
-/// Velocity of one candidate per impulse on another, turning frame, by rows.
+/// Velocity of one candidate per impulse on another, co-rotating frame, by rows.
 Block ImplicitContact::response(std::size_t to, std::size_t from) const noexcept {
   const std::size_t i = candidates_[to].place, j = candidates_[from].place;
   const bool ring = nodes_.sectors > 0;

@@ -27,13 +27,13 @@ class ImplicitContact {
   /// Adds to `impulse` what the ground does on nodes that would have these velocities: to the right
   /// side of the step. @param free v_{n+3/2} without it
   void solve(const ContactStep& step, const PlaneField& free, PlaneField& impulse);
-  /// What came of it, with the velocities `after`.
+  /// Reports the contacts of solve(), with the velocities `after`.
   void report(const ContactStep& step, const PlaneField& before, const PlaneField& after,
               ContactReport& report);
-  /// Of the last step, in the order of the candidates.
+  /// Contacts of the last step, in the order of the candidates.
   [[nodiscard]] const std::vector<ActiveContact>& active() const noexcept { return active_; }
 
-  /// As GeneralContact::take_difficult().
+  /// See GeneralContact::take_difficult().
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() { return difficult_.take(); }
 
   /// From these the next step starts: by contact, ascending; keys with bit 62 set.
@@ -50,7 +50,7 @@ class ImplicitContact {
   struct Row {
     std::size_t of;  ///< place in candidates_
     std::uint64_t key;
-    Vec2 arm;  ///< X + u_{n+1}, turning frame                                         [m]
+    Vec2 arm;  ///< X + u_{n+1}, co-rotating frame                                     [m]
   };
 
   void fill_column(std::size_t of, ImplicitOperator& implicit);

@@ -11,7 +11,7 @@
 
 namespace rondo::dynamics {
 
-/// What implicit elements add to the ledger's terms of a step [J/m].
+/// The terms that implicit elements add to the ledger of a step [J/m].
 struct ImplicitEnergy {
   double strain = 0.0;                 ///< Δt²/8 v⁻ᵀ K_I v⁻
   double dissipation_stiffness = 0.0;  ///< Δt β/2 v̄ᵀ K_I (v⁺ - v⁻)

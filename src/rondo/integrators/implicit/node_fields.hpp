@@ -30,14 +30,14 @@ struct NodeSet {
   std::vector<int> node;      ///< (n) of the mesh, -1: none
   std::vector<double> mass;   ///< (n)                                                 [kg/m]
   PlaneField reference;       ///< (n) X in the components                                [m]
-  std::vector<Complex> turn;  ///< (n) turns the components to those of the turning frame
+  std::vector<Complex> turn;  ///< (n) turns the components to those of the co-rotating frame
   int sectors = 0;            ///< > 0: rows round a ring of equal sectors, sector by sector
   std::size_t row_size = 0;   ///< places from a row to the next, with sectors
 
   [[nodiscard]] std::size_t size() const noexcept { return node.size(); }
 };
 
-/// What an integrator shows and lets be changed of such nodes, between two steps.
+/// The fields of such nodes that an integrator shows and lets be changed, between two steps.
 class NodeFields {
  public:
   virtual void read_displacement(PlaneField& u) const noexcept = 0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t row_lanes = 8;
 
-/// Of K_I, in polar components; symmetric to the last bit.
+/// Blocks of K_I, in polar components; symmetric to the last bit.
 RingBlocks blocks_of(const Model& model, const NodeSet& nodes) {
   const fem::BlockCsr& k = model.implicit->stiffness;
   const fem::SectorStiffness& sector = *model.sector;
@@ -121,8 +121,8 @@ class Ring final : public ImplicitOperator {
 
   int n_rows_, sectors_;
   std::size_t row_size_;
-  Matrix left_, here_, right_;  ///< of K_I
-  Circulant factor_;            ///< of A
+  Matrix left_, here_, right_;  ///< blocks of K_I
+  Circulant factor_;            ///< factor of A
   RingProduct product_;
   RingRows in_, out_;
 };

@@ -12,7 +12,7 @@ namespace rondo::dynamics {
 /// @pre model.sector
 [[nodiscard]] NodeSet ring_nodes(const Model& model, std::span<const int> nodes);
 
-/// Of these nodes, by parallel cyclic reduction (circulant.hpp). @param spin s of A [rad/s]
+/// Operator of the nodes by parallel cyclic reduction (circulant.hpp). @param spin s of A [rad/s]
 [[nodiscard]] std::unique_ptr<ImplicitOperator> ring_operator(const Model& model,
                                                               const NodeSet& nodes, double spin,
                                                               RingProduct product);

@@ -10,7 +10,7 @@ namespace rondo::dynamics {
 /// sector. What is before the first sector of a row and after its last is there as far as the
 /// offsets reach, and seven more numbers.
 struct RingTerms {
-  int rows;                 ///< of out
+  int rows;                 ///< rows of out
   int columns;              ///< rows of in
   int sectors;              ///< out holds up to seven more, which mean nothing
   int n_terms;              ///< at most 3

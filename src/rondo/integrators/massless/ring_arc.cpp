@@ -32,7 +32,7 @@ Eigen::MatrixXd matrix_of(const Block& a) {
   return m;
 }
 
-/// What follows a node on which nothing acts: x_{j+1} = P x_j with behind + here P + ahead P² = 0.
+/// Step P past nodes on which nothing acts: x_{j+1} = P x_j with behind + here P + ahead P² = 0.
 Block propagator(const Block& behind, const Block& here, const Block& ahead) {
   Block p{};
   constexpr int most = 200;

@@ -28,7 +28,7 @@ class RingArc {
   /// each                                                                               [m]
   [[nodiscard]] RingRows& around() noexcept { return around_; }
 
-  /// Where the contact nodes are at t_{n+2}, and their contacts there.
+  /// Places of the contact nodes at t_{n+2}, and their contacts there.
   struct Solution {
     PlaneField& place;       ///< (N or more) u_{n+2} of the contact nodes               [m]
     RingContacts& contacts;  ///< at t_{n+2}
@@ -51,11 +51,11 @@ class RingArc {
     Vec2 force_before;  ///< λ of t_{n+1}, that the prediction has                  [N/m]
     Vec2 force;         ///< λ of t_{n+2}                                           [N/m]
     Vec2 change;        ///< from the predicted place                               [m]
-    Vec2 free;          ///< the same where nothing pressed                        [m]
+    Vec2 free;          ///< change where nothing presses                          [m]
     contact::Status status = contact::Status::open;
-    double side = 0.0;  ///< of slip: λ_t = side μ λ_n
+    double side = 0.0;  ///< side of slip: λ_t = side μ λ_n
   };
-  /// Of Thomas' algorithm: change = solution - next · change of the next node.
+  /// One step of Thomas' algorithm: change = solution - next · change of the next node.
   struct Eliminated {
     Block next;
     Vec2 solution;
@@ -89,15 +89,15 @@ class RingArc {
   double lag_;  ///< b = β/Δt
   bool has_concave_corners_;
   Vec2 reference_;                   ///< X of every sector                                 [m]
-  std::vector<int> candidate_;       ///< (N) of each sector
+  std::vector<int> candidate_;       ///< (N) candidate of each sector
   std::vector<int> sector_of_;       ///< (nb) the reverse
-  Block left_{}, here_{}, right_{};  ///< of K_cc                                        [N/m²]
+  Block left_{}, here_{}, right_{};  ///< blocks of K_cc                                 [N/m²]
   Block forward_{}, backward_{};     ///< change of a node from that before, after it, without force
   int reach_ = 0;                    ///< nodes after which such a change is below round-off
   std::optional<Circulant> ring_;
-  Circulant::Matrix around_left_, around_here_, around_right_;  ///< of -K_ci             [N/m²]
+  Circulant::Matrix around_left_, around_here_, around_right_;  ///< blocks of -K_ci      [N/m²]
   RingProduct product_;
-  const PlaneField* place_ = nullptr;  ///< of the step in hand
+  const PlaneField* place_ = nullptr;  ///< places of the step in hand
   PlaneField* next_ = nullptr;
   PlaneField predicted_;
   std::vector<double> height_;         ///< (N) of the predicted places               [m]

@@ -57,7 +57,7 @@ void RingArc::eliminate(double friction) {
     after = arc_[i].change = eliminated_[i].solution - contact::apply(eliminated_[i].next, after);
 }
 
-/// Where nothing pressed the arc: its velocities without impulse are reported.
+/// Finds the changes if nothing pressed the arc: its velocities without impulse are reported.
 void RingArc::find_free() {
   statuses_.clear();
   for (Node& node : arc_) statuses_.push_back(std::exchange(node.status, Status::open));

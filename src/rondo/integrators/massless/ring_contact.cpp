@@ -16,7 +16,7 @@ using contact::Status;
 
 /// Gaps above this are closed to round-off [m].
 constexpr double closed = -1e-14;
-/// As near as this a node that stands still is held by a second facet [m].
+/// A second facet holds a node that stands still as near to it as this [m].
 constexpr double corner_reach = 1e-9;
 
 }  // namespace
@@ -93,7 +93,7 @@ void MasslessContact::join(int node, const contact::Touch& touch) {
   next_.contacts.push_back(c);
 }
 
-/// Where the ring would be with the forces of t_{n+1}; who touches there, or was pressed, joins.
+/// Predicts the ring with the forces of t_{n+1}; nodes that touch there, or were pressed, join.
 void MasslessContact::predict() {
   const contact::Ground& ground = model_.contact->ground;
   move_ring({}, free_);

@@ -18,18 +18,18 @@ namespace rondo::dynamics {
 /// A contact of the ring.
 struct RingContact {
   int node = 0;      ///< place in the ring, that is among the candidates
-  Vec2 normal;       ///< of the ground at the predicted place, fixed frame
+  Vec2 normal;       ///< normal of the ground at the predicted place, fixed frame
   double gap = 0.0;  ///< along it                                                     [m]
   Vec2 free;         ///< (gap, way along t)/Δt without forces of contact              [m/s]
   Vec2 impulse;      ///< Δt λ: of the ground on the node, (normal, tangential)        [N·s/m]
-  double residual = 0.0;  ///< of the law, over the node's scale of mass                    [m/s]
+  double residual = 0.0;  ///< residual of the law, over the node's scale of mass           [m/s]
   contact::Status status = contact::Status::open;
 };
 
 /// Contacts at one time, and how they were found.
 struct RingContacts {
   std::vector<RingContact> contacts;  ///< by node, ascending
-  int iterations = 0;                 ///< of the contact solver
+  int iterations = 0;                 ///< iterations of the contact solver
   int extensions = 0;                 ///< times that nodes joined, and all was solved again
   bool converged = true;              ///< the law holds to 1e-12 every time
   bool two_facets = false;  ///< a node is held by two facets, or about to be: not done here
@@ -41,7 +41,7 @@ struct RingContacts {
 [[nodiscard]] bool near_second_facet(const contact::Ground& ground, Vec2 place,
                                      double way) noexcept;
 
-/// What a step knows of the ring and its surroundings, turning frame.
+/// The motion of the ring and its surroundings that a step knows, co-rotating frame.
 struct RingMotion {
   std::vector<Vec2> place;  ///< (nc + ni) u_{n+1} of the ring, then u_{n+2} of its neighbours [m]
   std::vector<Vec2> rate;   ///< (ni) v_{n+3/2} of the neighbours                              [m/s]
@@ -62,9 +62,9 @@ class MasslessContact {
   /// The ring at t_{n+2} (3.10), from motion(); what was next() is now().
   /// @param step of t_{n+1}. Allocates as nodes first come into contact, or more than ever before.
   void solve(const ContactStep& step);
-  /// (nc) v_{n+3/2} = (u_{n+2} - u_{n+1})/Δt of the ring, turning frame                  [m/s]
+  /// (nc) v_{n+3/2} = (u_{n+2} - u_{n+1})/Δt of the ring, co-rotating frame              [m/s]
   [[nodiscard]] std::span<const Vec2> velocity() const noexcept { return velocity_; }
-  /// The same found by another way (RingArc): what was next() is now(), `found` is next().
+  /// Takes what another way (RingArc) has found: what was next() is now(), `found` is next().
   void take_over(RingContacts& found) noexcept {
     std::swap(now_, next_);
     std::swap(next_, found);
@@ -120,7 +120,7 @@ class MasslessContact {
   RingContacts now_, next_;
   contact::CoupledProblem problem_;
   contact::CoupledWorkspace workspace_;
-  std::vector<std::span<const contact::Block>> columns_;  ///< of K_cc⁻¹, of the contacts
+  std::vector<std::span<const contact::Block>> columns_;  ///< columns of K_cc⁻¹, for the contacts
   std::vector<Vec2> impulse_, start_;
   std::vector<contact::Status> status_;
   contact::DifficultProblems difficult_;

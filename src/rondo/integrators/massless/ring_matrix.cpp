@@ -64,7 +64,7 @@ void RingMatrix::take_rows(const fem::BlockCsr& k) {
   }
 }
 
-/// What nodes that never move hold the row by; round-off counts as nothing.
+/// The block by which nodes that never move hold the row; round-off counts as nothing.
 fem::BlockCsr::Block RingMatrix::sum_of_row(std::size_t row) const noexcept {
   fem::BlockCsr::Block sum{};
   double largest = 0.0;

@@ -16,7 +16,7 @@ namespace rondo::dynamics {
 
 class RingMatrix {
  public:
-  /// Of columns of the inverse that are kept, at the most, but for those that touch [bytes].
+  /// Memory for kept columns of the inverse, at the most, but for those that touch [bytes].
   static constexpr std::size_t column_memory = std::size_t{1} << 28;
 
   /// @param nodes (nc) without mass, none clamped
@@ -54,7 +54,7 @@ class RingMatrix {
   std::size_t slot_for_new_column();
 
   std::vector<int> nodes_, neighbours_;
-  std::vector<int> row_start_, column_;              ///< of K_c, columns as in product()
+  std::vector<int> row_start_, column_;              ///< rows of K_c, columns as in product()
   std::vector<fem::BlockCsr::Block> values_, held_;  ///< blocks; (nc) sums of rows
   bool positive_definite_ = false;
   // P K_cc Pᵀ = L Lᵀ, L by columns, the diagonal first.

@@ -16,7 +16,7 @@ constexpr std::size_t header = 5, per_contact = 10;
 /// (5.3), (3.10a)
 void add_works(const ContactStep& s, const ActiveContact& c, Vec2 mean_velocity,
                ContactReport& report) noexcept {
-  const Vec2 impulse = conj(s.rotation) * from_frame(c.normal, c.impulse.plane());  // turning frame
+  const Vec2 impulse = conj(s.rotation) * from_frame(c.normal, c.impulse.plane());  // co-rotating
   const double work = dot(impulse, mean_velocity);
   const Vec3 mean = 0.5 * (c.before + c.after);
   report.work += work;

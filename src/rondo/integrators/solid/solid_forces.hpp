@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Forces on the nodes of a wheel in three dimensions, in the turning frame, as the readable
-/// steps take them: K u, stiffness damping, pressures (docs/wheel3d.md).
+/// @file  Forces on the nodes of a wheel in three dimensions, in the co-rotating frame, as the
+/// readable steps take them: K u, stiffness damping, pressures (docs/wheel3d.md).
 #pragma once
 #include <span>
 #include <vector>
@@ -24,7 +24,7 @@ class SolidForces {
   [[nodiscard]] Vec3 damping(std::size_t k) const noexcept {
     return model_.stiffness_damping / model_.dt * (now_[k] - before_[k]);
   }
-  /// Of pressures; also on clamped nodes, where there are none in the sector: 0.
+  /// Force of the pressures on any node, clamped or not; 0 where there are no pressures.
   [[nodiscard]] Vec3 load(std::size_t k) const noexcept {
     return load_.empty() ? Vec3{} : load_[k];
   }
@@ -38,7 +38,7 @@ class SolidForces {
   std::vector<Vec3> now_, before_, load_;
 };
 
-/// Forces of the model's pressures at a time, (n) in the turning frame [N].
+/// Forces of the model's pressures at a time, (n) in the co-rotating frame [N].
 void solid_pressure_forces(const Model& model, double time, std::span<Vec3> load) noexcept;
 
 }  // namespace rondo::dynamics

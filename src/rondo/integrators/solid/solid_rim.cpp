@@ -18,7 +18,7 @@ double SolidRim::lateral_rate(double t) const noexcept {
   return model_.motion.advance(t, model_.dt).z / model_.dt;
 }
 
-/// What the rim feels in the directions in which it may move.
+/// The force on the rim in the directions in which it may move.
 RimForce SolidRim::in_plane(Vec3 force, double moment) const noexcept {
   return {conj(rim_.frame().rotation) * ground_.from_wheel(force).plane(), moment};
 }

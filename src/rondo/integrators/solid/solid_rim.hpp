@@ -37,7 +37,7 @@ class SolidRim {
 
  private:
   [[nodiscard]] RimForce in_plane(Vec3 force, double moment) const noexcept;
-  /// Of the half step from t on [m/s].
+  /// Lateral velocity of the half step from t on [m/s].
   [[nodiscard]] double lateral_rate(double t) const noexcept;
 
   const Model& model_;

@@ -35,7 +35,7 @@ void start_body(const Model& model, std::span<const Vec3> load, State& state) {
   });
 }
 
-/// The same of absolute velocities, on a loaded rim (10.6).
+/// Does so by absolute velocities, on a loaded rim (10.6).
 void start_wheel(const Model& model, std::span<const Vec3> load, State& state) {
   SolidRim rim(model);
   const Vec3 center = rim.velocity();

@@ -6,7 +6,7 @@
 
 namespace rondo::dynamics {
 
-/// Of a state with u_0, v_0 and the frame of t = 0: K u_0, its rate, and v_{1/2} by half a step
+/// Adds to u_0, v_0 and the frame of t = 0 in a state: K u_0, its rate, and v_{1/2} by half a step
 /// without contact. Clamped nodes rest.
 void start_solid(const Model& model, State& state);
 

@@ -28,7 +28,7 @@ class SolidWheelIntegrator final : public Integrator, public Resumable {
   [[nodiscard]] Vec3 arm(std::size_t k) const noexcept {
     return Vec3(model_.reference[k], model_.solid->axial[k]) + u_[k];
   }
-  /// Of the half steps before and after, as the rim sees them [m/s].
+  /// Velocities of the half steps before and after, as the rim sees them [m/s].
   [[nodiscard]] Vec3 relative_before(std::size_t k) const noexcept {
     return (u_[k] - before_[k]) / model_.dt;
   }
@@ -41,7 +41,7 @@ class SolidWheelIntegrator final : public Integrator, public Resumable {
   SolidRim rim_;
   std::vector<Vec3> before_, u_, next_;  ///< u_n, u_{n+1}, u_{n+2}
   std::vector<Vec3> v_, v_next_;         ///< absolute, in the axes of R_{n+1}                 [m/s]
-  std::vector<Vec3> absolute_;           ///< of the half step after, axes of the wheel        [m/s]
+  std::vector<Vec3> absolute_;           ///< V of the half step after, axes of the wheel      [m/s]
   SolidForces forces_;
   std::vector<ActiveContact> active_;
   Ledger ledger_;

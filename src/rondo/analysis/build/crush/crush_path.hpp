@@ -16,9 +16,9 @@ class CrushPath {
   explicit CrushPath(const AnalysisCase& analysis);
 
   [[nodiscard]] int n_increments() const noexcept { return increments_ + slide_increments_; }
-  /// After increment k, 0 to n_increments(): of the center below first touch, >= 0 [m]
+  /// Way of the center below first touch after increment k, 0 to n_increments(), >= 0 [m]
   [[nodiscard]] double depth(int k) const noexcept;
-  /// Likewise: of the center along +x [m]
+  /// Way of the center along +x after increment k [m]
   [[nodiscard]] double slide(int k) const noexcept;
   /// In the place of time: k over analysis.increments, above 1 only while a slide is drawn that is
   /// a number [-]
@@ -29,7 +29,7 @@ class CrushPath {
   [[nodiscard]] double largest_depth() const noexcept { return depth_.largest(); }
   /// The center moves along the ground.
   [[nodiscard]] bool has_slide() const noexcept { return slide_.largest() > 0.0; }
-  /// Of depth, and of slide where there is one.
+  /// Tables give the depth, and the slide where there is one.
   [[nodiscard]] bool is_of_tables() const noexcept { return depth_.points().size() > 1; }
   /// "depth 0.02 m, slide 0.001 m" after increment k
   [[nodiscard]] std::string target(int k) const;

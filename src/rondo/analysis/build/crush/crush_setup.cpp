@@ -44,7 +44,7 @@ std::string not_solved(const statics::CrushReport& report, double bound) {
       report.residual, bound, report.sweeps, report.pivots, failed);
 }
 
-/// Of LATIN besides: histories, and of LATIN-PGD a second factor and the fields solved for.
+/// Further memory of LATIN: histories, and for LATIN-PGD a second factor and the fields solved for.
 std::size_t latin_memory(const Case& c, const CrushSetup& s, bool wide_rows) {
   if (c.analysis.solver == CrushMethod::direct) return 0;
   constexpr std::size_t histories = 15, solves = 100, copies_of_fields = 3;

@@ -17,10 +17,10 @@ struct CrushSetup {
   std::vector<int> free;
   statics::CrushModel model;
   double ground_height = 0.0;  ///< y of the ground                                      [m]
-  double touch_height = 0.0;   ///< of the center above the ground at first touch        [m]
+  double touch_height = 0.0;   ///< height of the center over the ground at first touch  [m]
   double reach = 0.0;          ///< largest clearance of the candidates condensed at first [m]
   std::size_t within_reach = 0;
-  std::vector<Told> figures;          ///< of a physical kind, for `rondo check`
+  std::vector<Told> figures;          ///< figures of a physical kind, for `rondo check`
   std::vector<std::string> warnings;  ///< for the user: the caller prints them
 
   [[nodiscard]] std::size_t n_dofs() const noexcept { return 2 * free.size(); }
@@ -40,11 +40,11 @@ std::size_t crush_memory(const Case& c, const CrushSetup& setup);
 /// The stiffness condensed on the candidates within reach. @throws InputError: not definite
 void condense(const Case& c, const CrushSetup& setup, statics::Condensation& body);
 
-/// What is wrong after an increment; empty while all is well. @param bound of the law's residual
+/// The trouble after an increment; empty while all is well. @param bound of the law's residual
 [[nodiscard]] std::string crush_trouble(const statics::CrushReport& report,
                                         const statics::CrushWorks& works, double bound);
 
-/// What is wrong where an increment of rubber was not solved.
+/// The trouble where an increment of rubber was not solved.
 [[nodiscard]] std::string rubber_not_solved(const statics::CrushReport& report);
 
 }  // namespace rondo::study

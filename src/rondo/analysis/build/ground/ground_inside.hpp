@@ -10,10 +10,10 @@ namespace rondo::study {
 
 /// A point of the ground in a cell.
 struct GroundInside {
-  double depth = 0.0;  ///< from the side that may touch; 0: there is no such point [m]
-  double size = 1.0;   ///< of the elements at that side [m]
+  double depth = 0.0;  ///< distance from the side that may touch; 0: no such point [m]
+  double size = 1.0;   ///< size of the elements at that side [m]
   Vec2 place;          ///< [m]
-  int node = -1;       ///< of that side
+  int node = -1;       ///< node of that side
 };
 
 /// The one that is deepest over the size of its elements. Of the surface its corners are looked at

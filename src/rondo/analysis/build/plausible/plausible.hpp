@@ -11,14 +11,14 @@
 
 namespace rondo::study {
 
-// What is warned of.
+// Bounds beyond which there is a warning.
 inline constexpr double least_pressure = 1e3;         ///< [Pa]
 inline constexpr double least_pressure_share = 1e-4;  ///< and over the softest modulus
 inline constexpr double least_load_share = 0.1;       ///< load over the weight of the body
 inline constexpr double least_deflection = 1e-4;      ///< over the outer radius
 inline constexpr double clear_share =
     1.0;  ///< gap above the ground over the radius: less may be meant
-inline constexpr double off_middle = 0.1;   ///< of the tread over its width
+inline constexpr double off_middle = 0.1;   ///< offset of the tread over its width
 inline constexpr double wide_angle = 0.35;  ///< slip angle, camber [rad]
 
 /// Adds what there is to say of loads, pressures, angles, and the section. @param materials one for

@@ -30,7 +30,7 @@ const mesh::Surface& surface_of(const Case& c, const mesh::Mesh& mesh, const std
   throw case_error(c, key, "there is no curve of this name in the section of the wheel", names);
 }
 
-/// What is held feels no pressure.
+/// Refuses a surface whose nodes are all held: it feels no pressure.
 void refuse_held(const Case& c, const std::string& key, const mesh::Mesh& mesh,
                  const mesh::Surface& surface) {
   const std::vector<char> held = mesh::clamped_flags(mesh);

@@ -19,7 +19,7 @@ void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidB
 /// Extent along the axle [m].
 double width_of(const mesh::Mesh& mesh);
 
-/// What `rondo check` says of it.
+/// Adds the figures of the wheel that `rondo check` prints.
 void tell_solid_figures(const Case& c, Setup& s);
 
 }  // namespace rondo::study

@@ -49,10 +49,10 @@ struct GroupPose {
   double shift_x = 0.0, shift_y = 0.0;  ///< x_c - X_c                                     [m]
 };
 
-/// What turning with the body takes away of the forces, over |Z| (9.5): times m J R arm.
+/// Factors of m J R arm in the forces that turning with the body takes away, over |Z| (9.5).
 struct GroupTurning {
-  double elastic = 0.0;  ///< of p                                                       [1/s²]
-  double damping = 0.0;  ///< of β (p - p_n)/Δt
+  double elastic = 0.0;  ///< factor from p                                              [1/s²]
+  double damping = 0.0;  ///< factor from β (p - p_n)/Δt
 };
 
 /// Fields of all rows, whatever their group.
@@ -74,8 +74,8 @@ struct BodyBlock {
   std::ptrdiff_t first_pack, last_pack;
   const GroupPose* pose;
   const GroupTurning* turning;
-  const StepFactors* step;  ///< of the group's frame
-  double* sums;             ///< of one of the enumerations above, by lanes: set
+  const StepFactors* step;  ///< factors of the step in the group's frame
+  double* sums;             ///< sums of one of the enumerations above, by lanes: set
 };
 
 /// The passes of one instruction set, in their order in a step.

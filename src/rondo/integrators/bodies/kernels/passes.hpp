@@ -86,7 +86,7 @@ struct VelocitySums {
   }
 };
 
-/// What a pack of nodes is and does.
+/// The fields and constants of a pack of nodes.
 struct BodyNodes {
   Vectors u, v, arm;
   Pack mass, dt_over_mass;
@@ -105,7 +105,7 @@ inline Vectors frame_of(const BodyPacks& c, const BodyNodes& n) noexcept {
   return add_turned(c.step.rate, plus(n.arm, n.u), c.pull);
 }
 
-/// What the deformation of the body does to a pack of nodes, in their frame.
+/// The forces of the body's deformation on a pack of nodes, in their frame.
 struct InternalForces {
   Vectors product;   ///< p
   Vectors gradient;  ///< (9.5); of held nodes p
@@ -164,7 +164,7 @@ inline Vectors velocity_of(const BodyPacks& c, const BodyNodes& n, const Interna
   return after;
 }
 
-/// The same with all that it reads.
+/// Finds the forces and the load on the pack, and then v⁺ by them.
 template <bool Held, bool Beta>
 inline Vectors velocity_of(const BodyFields& f, const BodyPacks& c, const BodyNodes& n,
                            std::ptrdiff_t pack, VelocitySums& s) noexcept {

@@ -140,13 +140,13 @@ inline Vectors first_of(int n, Vectors a, Vectors b) noexcept {
 
 /// The row in hand; its constants in every lane.
 struct RowInHand {
-  std::ptrdiff_t at;  ///< as in CyclicRow
+  std::ptrdiff_t at;  ///< place of the row, see CyclicRow
   Vectors frame;  ///< Δt(ṡJ - s²)X; Δt Rᵀ(c̈ - g), in each sector another, is added to it
   Pack dt_over_mass;
   int first_load, n_loads;
 };
 
-/// What the loads of a row do on one pack.
+/// The force of the loads of a row on one pack.
 inline Vectors load_on(const CyclicStrip& s, const RowInHand& row, std::ptrdiff_t column) noexcept {
   Vectors load = {all(0.0), all(0.0)};
   for (int i = row.first_load; i < row.first_load + row.n_loads; ++i) {

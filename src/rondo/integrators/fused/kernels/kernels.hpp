@@ -61,34 +61,34 @@ enum WheelSum {
   wheel_momentum_y,
   n_wheel_sums
 };
-/// The same with elements of rubber.
+/// The sums of WheelSum, and more with elements of rubber.
 enum RubberWheelSum {
   wheel_linear = n_wheel_sums,  ///< u·K u of the linear elements
   n_rubber_wheel_sums
 };
 inline constexpr int most_sums = n_rubber_wheel_sums;
 
-/// What all nodes of a step on a loaded rim share: forces and velocities.
+/// The factors that all nodes of a step on a loaded rim share, for forces and velocities.
 struct WheelFactors {
   double back_x, back_y;  ///< e^{-iδ⁻} - 1
   double pull_x, pull_y;  ///< Δt Rᵀ g                                      [m/s]
   double alpha_over_dt;   ///< α/Δt                                         [1/s²]
   double beta_over_dt;    ///< β/Δt [-]
 };
-/// The same of the way to u_{n+2}, which is known once the rim is.
+/// Factors of all nodes for the way to u_{n+2}, which is known once the rim is.
 struct WheelWay {
   double turn_x, turn_y;  ///< e^{-iδ⁺} - 1
   double way_x, way_y;    ///< Δt e^{-iδ⁺}                                            [s]
   double hub_x, hub_y;    ///< Rᵀ ċ⁺                                                  [m/s]
 };
 
-/// What all nodes of a step share. Complex numbers as (x, y).
+/// The factors that all nodes of a step share. Complex numbers as (x, y).
 struct StepFactors {
   double dt;                    ///< Δt [s]
   double rate_x, rate_y;        ///< Δt (ṡJ - s²)                                     [1/s]
   double pull_x, pull_y;        ///< Δt Rᵀ(c̈ - g)                                     [m/s]
   double inverse_x, inverse_y;  ///< 1/a
-  double drag_x, drag_y;        ///< of the velocity update (3.5)
+  double drag_x, drag_y;        ///< drag of the velocity update (3.5)
   double beta_over_dt;          ///< β/Δt [-]
 };
 
@@ -134,7 +134,7 @@ struct CyclicRow {
 struct CyclicStrip {
   const CyclicRow* rows;
   int n_rows;               ///< at most most_rows
-  const MirrorRow* mirror;  ///< of each row; null: rows have entries
+  const MirrorRow* mirror;  ///< mirror form of each row; null: rows have entries
   std::ptrdiff_t row_size;  ///< between rows
   double* now;              ///< u_{n+1} of the chunk's first row, sector 0
   double* next;             ///< u_{n+2}; on a loaded rim u_n till wheel_strip_way
@@ -150,7 +150,7 @@ struct CyclicStrip {
   bool lowest, highest;  ///< no free row below the first, none above the last
   const StepFactors* step;
   const WheelFactors* wheel;  ///< instead of `step`
-  const WheelWay* way;        ///< of wheel_strip_way alone
+  const WheelWay* way;        ///< read by wheel_strip_way alone
   double* sums;               ///< (groups, n_sums or n_wheel_sums, lanes): added to
   // Loads on nodes, unused by kernels without: f = Σ pressure · force, in the sector's frame.
   const double* loads;      ///< force per pressure of the first, sector 0; components and loads are

@@ -7,7 +7,7 @@ namespace {
 
 using rondo::dynamics::RingTerms;
 
-/// Of a pack of sectors, all rows at once: what they read is read once.
+/// Product for a pack of sectors, all rows at once: each number is read once.
 template <int Rows>
 inline void ring_pack(const RingTerms& t, std::ptrdiff_t j) noexcept {
   Pack sum[Rows];
@@ -23,7 +23,7 @@ inline void ring_pack(const RingTerms& t, std::ptrdiff_t j) noexcept {
   for (int i = 0; i < Rows; ++i) store(t.out + i * t.stride + j, sum[i]);
 }
 
-/// The same of any number of rows and columns, one by one.
+/// The product with any number of rows and columns, row by row.
 template <>
 inline void ring_pack<0>(const RingTerms& t, std::ptrdiff_t j) noexcept {
   for (int i = 0; i < t.rows; ++i) {

@@ -17,7 +17,7 @@ inline Vectors sparse_product(const SparseRows& s, std::ptrdiff_t pack) noexcept
   return product;
 }
 
-/// What the loads of a pack do.
+/// The force of the loads on a pack.
 inline Vectors load_on(const SparseRows& s, std::ptrdiff_t pack) noexcept {
   Vectors load = {all(0.0), all(0.0)};
   for (int i = s.first_load[pack]; i < s.first_load[pack + 1]; ++i) {

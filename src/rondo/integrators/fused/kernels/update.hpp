@@ -62,8 +62,8 @@ struct Factors {
   Vectors rate, inverse, drag;
 };
 
-/// What the update of a pack reads. `before` is K u_n, with β only; `frame` what the acceleration
-/// of the frame is without u: Δt[(ṡJ - s²)X + Rᵀ(c̈ - g)]; `load` a force, of loaded nodes only.
+/// The values that the update of a pack reads. `before` is K u_n, with β only; `frame` is the
+/// frame's part without u: Δt[(ṡJ - s²)X + Rᵀ(c̈ - g)]; `load` is a force, of loaded nodes only.
 struct Nodes {
   Vectors u, v, force, before, frame, load;
   Pack dt_over_mass;

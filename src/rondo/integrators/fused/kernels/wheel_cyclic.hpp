@@ -32,7 +32,7 @@ inline Vectors own_of(int own, Vectors a) noexcept {
   return first_of(own, a, zero);
 }
 
-/// What is of no sector of the chunk's own weighs nothing in the sums.
+/// Sets nodes outside the chunk's own sectors to zero, so that they add nothing to the sums.
 inline WheelNodes own_nodes(int own, const WheelNodes& n) noexcept {
   WheelNodes m = n;
   m.u = own_of(own, n.u);

@@ -13,7 +13,7 @@ using rondo::dynamics::kernels::WheelWay;
 inline Vectors add_times(Pack s, Vectors a, Vectors b) noexcept {
   return {fma(s, a.x, b.x), fma(s, a.y, b.y)};
 }
-/// Of the packs in hand.
+/// Sums over the packs in hand.
 struct WheelSums {
   Pack kinetic, strain, force_arm, force_moment, force_after, force_across, force_moved,
       force_turned, mass_mean, mass_moment, change_mean, change_moment;
@@ -44,7 +44,7 @@ struct WheelPacks {
   Vectors back;
 };
 
-/// What the update of a pack reads; `pull` with gravity only.
+/// The values that the update of a pack reads; `pull` with gravity only.
 struct WheelNodes {
   Vectors u, u_before, a, force, before, reference, pull;
   Pack mass, dt_over_mass;
@@ -114,7 +114,7 @@ inline void for_resultants(const Resultants& r, Visit&& visit) noexcept {
     visit(wheel_momentum_y, r.momentum.y);
   }
 }
-/// The same.
+/// visit(which sum, value) of all.
 template <class Visit>
 inline void for_sums(const WheelSums& s, Visit&& visit) noexcept {
   using namespace rondo::dynamics::kernels;

@@ -10,7 +10,7 @@ namespace {
 
 using kernels::lanes;
 
-/// Where the load of a row is among those of its pack.
+/// The place of the load of a row among those of its pack.
 std::size_t place_of(const SparsePlan& plan, std::size_t row, int load) {
   auto at = static_cast<std::size_t>(plan.first_load[row / lanes]);
   const auto last = static_cast<std::size_t>(plan.first_load[row / lanes + 1]);

@@ -9,10 +9,10 @@
 
 namespace rondo::dynamics {
 
-/// Of all elements, in the order of the blocks [J/m].
+/// Energies of all elements, summed in the order of the blocks [J/m].
 struct RubberEnergy {
   double stored = 0.0;              ///< at t_{n+1}, in branches too
-  double dissipation_before = 0.0;  ///< of the branches, in the half step to t_{n+1}
+  double dissipation_before = 0.0;  ///< dissipation of the branches, in the half step to t_{n+1}
   double dissipation_after = 0.0;   ///< in the half step after it
   double least = 0.0;               ///< smallest det F at a point [-]
 };
@@ -25,14 +25,14 @@ class RubberForces {
                std::span<const Vec2> u, const kernels::RubberTable& table);
 
   [[nodiscard]] std::size_t n_blocks() const noexcept { return plan_.blocks.size(); }
-  /// Of one block. @param now (rows, 2) u_{n+1}, rows of zeros for clamped nodes
+  /// Evaluates one block. @param now (rows, 2) u_{n+1}, rows of zeros for clamped nodes
   void evaluate(const double* now, std::size_t block) noexcept;
-  /// Of the blocks evaluated last.
+  /// Energies by the blocks as they were evaluated last.
   [[nodiscard]] RubberEnergy energy() const noexcept;
 
   /// For the rows: once all blocks are evaluated.
   [[nodiscard]] const kernels::RubberRows& rows() const noexcept { return rows_; }
-  /// Of one row [N/m].
+  /// Force on one row [N/m].
   [[nodiscard]] Vec2 force_on(int row) const noexcept;
 
   /// C_i of element, branch: xx, yy, xy.

@@ -26,12 +26,12 @@ struct RubberPlan {
   std::vector<int> element;  ///< (packs, lanes) of RubberPart::cells; repeated where a pack ends
   std::vector<RubberBlock> blocks;
   std::size_t n_packs = 0, n_history = 0;  ///< n_history: doubles of all branches
-  // As in kernels::RubberElements and RubberRows.
+  // Arrays of kernels::RubberElements and RubberRows.
   LargeArray geometry;
   LargeArrayOf<std::int32_t> node;
   std::vector<std::int64_t> start;
   LargeArrayOf<std::int32_t> corner;
-  std::vector<std::vector<kernels::RubberBranch>> branches;  ///< of each material
+  std::vector<std::vector<kernels::RubberBranch>> branches;  ///< branches of each material
 };
 
 /// @param row (n) of each node of the model; -1: clamped, at `zero` then

@@ -19,7 +19,7 @@ class RubberWork {
 
   /// Sets the strain energy of the half step before, and adds the work of the step at t_{n+1}.
   MaterialReport add(const RubberEnergy& energy, WholeStep& step) noexcept;
-  /// The same with a loaded rim.
+  /// Does the same with a loaded rim.
   MaterialReport add(const RubberEnergy& energy, const StepSums& sums, StepEnergy& step) noexcept;
 
   [[nodiscard]] std::vector<double> save() const;

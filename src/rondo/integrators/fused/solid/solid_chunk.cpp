@@ -32,7 +32,7 @@ SolidChunk::SolidChunk(const Model& model, const SolidPlan& plan, const kernels:
   active_.reserve(2 * most * plan.candidate.size());
 }
 
-/// What is right of the chunk's own nodes, where it is read for the next pass.
+/// Shows the values of the chunk's own nodes where they are read for the next pass.
 void SolidChunk::show_to_others() noexcept {
   if (plan_.cut.halo != Halo::ring) return give_edges();
   for (int a = 0; a < plan_.n_local; ++a) wrap(layout(), a, field_now());

@@ -24,12 +24,12 @@ class SolidChunk {
   /// This chunk's own nodes, in the frames of their nodes.
   void save(SavedState& saved) const noexcept;
   void restore(const SavedState& saved) noexcept;
-  /// u_{n+1} or v_{n+1/2} of this chunk's own nodes, in the turning frame; (n).
+  /// u_{n+1} or v_{n+1/2} of this chunk's own nodes, in the co-rotating frame; (n).
   /// @param candidates only those of the rows that have contact candidates
   void save_displacement(bool candidates, std::span<Vec3> u) const noexcept;
   void save_velocity(std::span<Vec3> v) const noexcept;
 
-  /// What neighbours need of this chunk for the pass to come.
+  /// Gives the neighbours what they need of this chunk for the pass to come.
   void give_edges() noexcept { edges_.give(layout(), edge_fields(), passes_); }
   /// @pre the neighbours have made as many passes, or one more, and given their edges after each.
   void take_halo(const SolidChunk& left, const SolidChunk& right) noexcept {
@@ -44,7 +44,7 @@ class SolidChunk {
   [[nodiscard]] std::span<const ActiveContact> active() const noexcept { return active_; }
 
  private:
-  /// Of a row, components each; u of even and of odd steps.
+  /// Place of the first component of each field in a row; u of even and of odd steps.
   enum Field { field_u_even = 0, field_u_odd = 3, field_v = 6, field_force = 9 };
   /// Columns of the chunk that a step of a pass works on.
   struct Extent {
@@ -63,9 +63,9 @@ class SolidChunk {
     const StepContext* step;
     kernels::SolidFactors factors;
     Extent extent;
-    std::size_t place;  ///< of the step in the pass
+    std::size_t place;  ///< number of the step in the pass
     int now, next;      ///< fields of u before and after the step
-    bool last;          ///< of the pass
+    bool last;          ///< the step is the last of the pass
   };
 
   [[nodiscard]] Extent extent(std::size_t step, std::size_t n_steps) const noexcept;
@@ -73,7 +73,7 @@ class SolidChunk {
   [[nodiscard]] double* field(int row, int field) noexcept;
   [[nodiscard]] Vec3 at(int row, int field, int column) const noexcept;
   void put(int row, int field, int column, Vec3 value) noexcept;
-  /// Frame of a node in the turning frame.
+  /// The frame of a node, as a rotation of the co-rotating frame.
   [[nodiscard]] Complex frame(int row, int column) const noexcept {
     const kernels::SolidRow& r = plan_.rows[static_cast<std::size_t>(row)];
     const auto c = static_cast<std::size_t>(std::ptrdiff_t{column} + halo_columns);
@@ -110,7 +110,7 @@ class SolidChunk {
   const kernels::SolidTable& table_;
   CyclicChunkRange range_;
   LargeArray fields_;
-  std::vector<double> turn_x_, turn_y_;  ///< of the columns, from the halo on the left
+  std::vector<double> turn_x_, turn_y_;  ///< cos φ, sin φ of the columns, from the halo on the left
   LargeArray sums_;                      ///< (depth, groups, n_sums, lanes)
   std::vector<PartialStep> contact_;     ///< (depth, groups): of these the contacts' part
   RingEdges edges_;

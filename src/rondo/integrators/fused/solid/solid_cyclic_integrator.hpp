@@ -24,7 +24,7 @@ class SolidCyclicIntegrator final : public BatchIntegrator {
   void save_fields(SavedState& saved) const noexcept override;
   void restore_fields(const SavedState& saved) noexcept override;
   void save_active(std::vector<ActiveContact>& active) const noexcept override;
-  // Of what there is none in three dimensions: loaded rims, and corners between two nodes.
+  // These do nothing: three dimensions have no loaded rims and no corners between two nodes here.
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
   void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;

@@ -11,10 +11,10 @@ namespace {
 
 using fem::SolidSector;
 
-/// Of smaller wheels no steps follow each other in a pass.
+/// In smaller wheels no steps follow each other in a pass.
 constexpr std::size_t nodes_in_cache = 12'000;
 
-/// Of each row its distance from the side of least z, in nodes.
+/// The distance of each row from the side of least z, in nodes.
 std::vector<int> levels_from_side(const SolidSector& k, const std::vector<double>& z) {
   const auto [least, most] = std::minmax_element(z.begin(), z.end());
   const double side = *least + 1e-9 * (*most - *least);

@@ -49,13 +49,13 @@ struct SolidPlan {
 inline constexpr int solid_steps_in_a_pass = 8;
 static_assert(solid_steps_in_a_pass <= halo_columns);
 
-/// What the cut is fitted to. The bits of the results do not depend on it.
+/// Sizes that the cut is fitted to. The bits of the results do not depend on them.
 struct SolidTuning {
   /// Fields below this stay in the cache of a core from step to step: no passes of several steps.
   std::size_t cache_bytes = 1'200'000;
-  /// What the steps of a pass have in hand of a chunk.
+  /// Bytes of a chunk that the steps of a pass have in hand.
   std::size_t pass_bytes = 3'750'000;
-  int fewest_columns = 128;  ///< of a chunk that several steps pass over
+  int fewest_columns = 128;  ///< fewest columns of a chunk that several steps pass over
   /// A halo of eight columns is advanced along where no chunk is narrower than this.
   int wide_halo_columns = 96;
 };

@@ -82,7 +82,7 @@ std::array<Block, 3> blocks_of(const Numbers& k) noexcept {
   return {here, last, next};
 }
 
-/// What the nodes of the other ring have of these.
+/// These numbers, as the nodes of the other ring have them.
 Numbers transposed(const Numbers& k) noexcept {
   using namespace kernels;
   Numbers t = k;
@@ -222,8 +222,8 @@ class Rows {
     return trios;
   }
 
-  /// Where a row is its own mirror it needs half of the products, and its blocks become what these
-  /// stand for.
+  /// A row that is its own mirror needs half of the products; its blocks become those that the
+  /// numbers stand for.
   void find_mirror(std::size_t a) {
     const double round_off = 1e-11 * largest_;  // of the coordinates, over the size of an element
     const std::vector<Trio> trios = trios_of(a);
@@ -247,7 +247,7 @@ class Rows {
     }
   }
 
-  /// What a mirrored row has in place of its blocks, a row that is none has transposed.
+  /// Gives a row without the symmetry, transposed, what a mirrored row has in place of its blocks.
   void keep_symmetry() {
     for (std::size_t a = 0; a < k_.n_local(); ++a) {
       if (result.kind[a] != SolidKind::general) continue;
@@ -279,7 +279,7 @@ class Rows {
 
   const SolidSector& k_;
   double near_ = 0.0;      ///< places that are as near are the same                        [m]
-  double largest_ = 0.0;   ///< of the blocks
+  double largest_ = 0.0;   ///< largest |k[0]| of the blocks
   std::vector<int> ring_;  ///< (n_local)
   SharedNumbers shared_;
   struct MirroredTrio {

@@ -14,12 +14,12 @@
 namespace rondo::dynamics {
 
 struct SolidBlock {
-  int row;                  ///< that the block acts on
-  int shift;                ///< of its sector
+  int row;                  ///< row that the block acts on
+  int shift;                ///< shift of the sector of that row
   std::array<double, 9> k;  ///< column-major [N/m]
 };
 
-/// What a row couples with: one node of a sector, or three of the same radius and z.
+/// The nodes that a row couples with: one of a sector, or three of the same radius and z.
 struct SolidCoupling {
   struct Place {
     int row = 0, shift = 0;

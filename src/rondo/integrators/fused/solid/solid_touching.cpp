@@ -79,7 +79,7 @@ void SolidChunk::solve_node(const Work& work, const Touching& t) noexcept {
       conj(frame) * solve_contacts(*work.step->solid_contact, node, t.touches, active, report);
   put(t.row, field_v, t.column, after);
   put(t.row, work.next, t.column, u + model_.dt * after);
-  // Of a neighbour's node it is the neighbour who reports.
+  // The neighbour reports the contacts of its own nodes.
   if (t.column < 0 || t.column >= range_.columns) return;
   PartialStep& part = contact_[work.place * range_.n_groups +
                                static_cast<std::size_t>(t.column / solid_group_columns)];

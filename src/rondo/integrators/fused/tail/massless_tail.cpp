@@ -57,7 +57,7 @@ class MasslessTail final : public StepTail {
     start();
   }
 
-  /// What this has written in the step before, is there.
+  /// Takes what it has written in the step before, or reads it where it has written nothing.
   void before() noexcept override {
     if (std::exchange(is_known_, true)) {
       std::swap(ring_.u, next_);
@@ -164,7 +164,7 @@ class MasslessTail final : public StepTail {
     return true;
   }
 
-  /// What the report wants to know of a candidate.
+  /// Shows a candidate's motion to the report.
   void show(std::size_t k) noexcept {
     const std::size_t i = ring_place_[k];
     const Complex turn = ring_.nodes.turn[i];
@@ -204,7 +204,7 @@ class MasslessTail final : public StepTail {
   std::optional<RingArc> arc_;
   RingContacts found_;
   Part ring_, around_;
-  const std::vector<std::size_t> ring_place_, around_place_;  ///< of candidates, of neighbours
+  const std::vector<std::size_t> ring_place_, around_place_;  ///< by candidate, by neighbour
   std::vector<std::size_t> around_row_;                       ///< where the arc's rows around begin
   const std::vector<char> held_;
   PlaneField before_;                ///< v_{n+1/2} of the ring

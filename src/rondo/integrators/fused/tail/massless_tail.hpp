@@ -23,8 +23,8 @@ struct NodesInStep {
 [[nodiscard]] std::unique_ptr<StepTail> massless_tail(const Model& model, NodesInStep ring,
                                                       NodesInStep around, RingProduct product);
 
-/// Of these the tail wants the fields: the candidates, ascending, and the nodes with mass that K
-/// joins to them; `sectors_around`: in every sector what is one in any.
+/// The nodes whose fields the tail wants: the candidates, ascending, and the nodes with mass that K
+/// joins to them; sectors_around() takes a node of all sectors where it is one of these in any.
 [[nodiscard]] std::vector<int> massless_nodes(const Model& model);
 [[nodiscard]] std::vector<int> nodes_around(const Model& model);
 [[nodiscard]] std::vector<int> sectors_around(const Model& model);

@@ -17,7 +17,7 @@ class StepTail {
   StepTail(const StepTail&) = delete;
   StepTail& operator=(const StepTail&) = delete;
 
-  /// What the pass will overwrite.
+  /// Keeps the values that the pass will overwrite.
   virtual void before() noexcept = 0;
   /// Puts right what the pass has made. @param part of the step, to be filled
   virtual void after(const StepContext& step, PartialStep& part) noexcept = 0;
@@ -26,10 +26,10 @@ class StepTail {
 
   /// Adds the contacts of the last step.
   virtual void save_active(std::vector<ActiveContact>& active) const = 0;
-  /// What it carries from step to step: adds to `saved`, takes its own from it.
+  /// The values that go from step to step: save() adds them to `saved`, restore() takes them.
   virtual void save(SavedState& saved) const = 0;
   virtual void restore(const SavedState& saved) = 0;
-  /// As Integrator::take_difficult().
+  /// See Integrator::take_difficult().
   [[nodiscard]] virtual std::vector<contact::ProblemFile> take_difficult() { return {}; }
 };
 

@@ -56,7 +56,7 @@ inline rubber::Bilinear<Pack> gather_corners(const RubberElements& e,
   return rubber::bilinear(u);
 }
 
-/// Of all lanes, as RubberSums.
+/// The sums of RubberSums, lane by lane.
 struct ElementSums {
   Pack before, after, energy;
 };

@@ -16,9 +16,9 @@ struct RubberBranch {
   double growth;   ///< e^{Δt/(2τ)} - 1
 };
 
-/// What the elements of some packs give in a step, [J/m] but for `least`.
+/// Sums over the elements of some packs in a step, [J/m] but for `least`.
 struct RubberSums {
-  double dissipation_before;  ///< of the branches, in the half step before the force
+  double dissipation_before;  ///< dissipation of the branches, in the half step before the force
   double dissipation_after;   ///< in the half step after it
   double energy;              ///< stored at t_{n+1}, in branches too
   double least;               ///< smallest det F at a point                            [-]
@@ -37,15 +37,15 @@ struct RubberElements {
   double shear;  ///< μ of small strain                                                      [Pa]
   const RubberBranch* branches;
   int n_branches;
-  RubberSums* sums;  ///< of these packs: set
+  RubberSums* sums;  ///< sums of these packs, which the kernel sets
 };
 
-/// Where the forces of the elements on a row are: of every row as many places as the most of its
-/// pack, those left over hold zeros.
+/// Places of the forces of the elements on a row: every row has as many as the most of its
+/// pack; those left over hold zeros.
 struct RubberRows {
   const std::int64_t* start;   ///< (packs + 1) first place of a pack
   const std::int32_t* corner;  ///< (places, lanes) where a pair is in `force`
-  const double* force;         ///< of RubberElements
+  const double* force;         ///< RubberElements::force
 };
 
 /// The loops of one instruction set for rubber.

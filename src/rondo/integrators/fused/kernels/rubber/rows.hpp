@@ -10,8 +10,8 @@ namespace {
 
 using rondo::dynamics::kernels::RubberRows;
 
-/// What elements and K do on a pack of rows: derivative of the energy. @param linear u·K u of them,
-/// added to
+/// Force of elements and K on a pack of rows: derivative of the energy. @param linear u·K u of
+/// them, added to
 inline Vectors force_on(const SparseRows& s, std::ptrdiff_t pack, Pack& linear) noexcept {
   Vectors force = sparse_product(s, pack), u;
   load_pairs(s.now + pack * 2 * lanes, u.x, u.y);

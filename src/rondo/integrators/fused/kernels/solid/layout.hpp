@@ -21,12 +21,12 @@ enum class SolidKind {
   mirrored,  ///< 14 numbers for each three nodes beside each other (SolidMirror)
 };
 
-/// What the rows of a strip couple with: one node over all sectors, or three of the same radius and
-/// z, the middle one on the meridian of the row's node. Where they are: number of doubles from the
+/// The nodes that the rows of a strip couple with: one over all sectors, or three of one radius and
+/// z, the middle one on the meridian of the row's node. A place is a number of doubles from the
 /// field u of the chunk's first row, sector 0.
 struct SolidEntry {
   std::ptrdiff_t here;
-  std::ptrdiff_t last, next;  ///< of mirrored strips
+  std::ptrdiff_t last, next;  ///< places in mirrored strips
   int rows;                   ///< bits: 1 the first row couples with it, 2 the second
 };
 
@@ -60,7 +60,7 @@ struct SolidRow {
   double turn_x, turn_y;  ///< its frame in that of its sector
 };
 
-/// What all nodes of a step share.
+/// The factors that all nodes of a step share.
 struct SolidFactors {
   StepFactors plane;
   double axial_pull;     ///< Δt (c̈ - g) along the axle                                 [m/s]
@@ -76,7 +76,7 @@ struct SolidStrip {
   SolidKind kind;
   const SolidEntry* entries;
   int n_entries;
-  const double* blocks;  ///< of the entries, one after the other, each with those of its rows
+  const double* blocks;  ///< blocks of the entries, one by one, each with those of its rows
   double* now;           ///< u_{n+1} of the chunk's first row, sector 0
   double* next;          ///< u_{n+2}
   double* velocity;      ///< v⁻, becomes v⁺

@@ -35,7 +35,7 @@ template <int N>
   for (int i = 0; i < N; ++i) sum[i] = fma(every, u[i], sum[i]);
 }
 
-/// Of N packs of one component of three nodes beside each other.
+/// One component of three nodes beside each other, N packs of it.
 template <int N>
 struct SolidLayer {
   Pack here[N], sum[N], difference[N];
@@ -55,7 +55,7 @@ template <int N>
   }
 }
 
-/// What the radial, the tangential and the axial component of three nodes do on a row.
+/// Each adds the force on a row by the radial, tangential or axial component of three nodes.
 template <int N>
 [[gnu::always_inline]] inline void add_radial(const double* k, const SolidLayer<N>& u,
                                               SolidSum<N>& sum) noexcept {
@@ -86,7 +86,7 @@ template <int N>
   add_product<N>(k + mirror_tz1, u.difference, sum.t);
 }
 
-/// What the nodes of an entry do on those of the rows that Rows tells, by bits; `k` and `l` are the
+/// Adds the forces of an entry's nodes on the rows that the bits of Rows name; `k` and `l` are the
 /// blocks of the first and of the second row.
 template <int Rows, int N>
 [[gnu::always_inline]] inline void add_mirrored(const SolidEntry& e, const double* u,
@@ -113,7 +113,7 @@ template <int N>
   add_product<N>(k + 2, u, sum.z);
 }
 
-/// The same of one node, column by column of its blocks.
+/// Does the same for one node, column by column of its blocks.
 template <int Rows, int N>
 [[gnu::always_inline]] inline void add_general(const SolidEntry& e, const double* u,
                                                std::ptrdiff_t stride, const double* k,
@@ -180,7 +180,7 @@ template <SolidKind Kind, int Rows, int N>
   if constexpr (Rows & 2) store_sum<N>(two, out.f[1], pack);
 }
 
-/// Of `n` packs, N at a time, and rather twice two than three and one.
+/// Finds the forces of `n` packs, N at a time; the last four as two and two, not three and one.
 template <SolidKind Kind, int Rows, int N>
 inline void packs_product(const SolidStrip& s, int first, int n, SolidForces& out) noexcept {
   const std::ptrdiff_t column = static_cast<std::ptrdiff_t>(first) * lanes;
@@ -192,7 +192,7 @@ inline void packs_product(const SolidStrip& s, int first, int n, SolidForces& ou
   for (; i < n; ++i) solid_product<Kind, Rows, 1>(s, column + i * lanes, i, out);
 }
 
-/// As much at a time as the registers hold.
+/// Finds the forces of as many packs at a time as the registers hold.
 template <SolidKind Kind>
 inline void rows_product(const SolidStrip& s, int first, int n, SolidForces& out) noexcept {
   if constexpr (strip_packs > 1) {

@@ -53,7 +53,7 @@ struct SpaceSums {
   sums.load = sums.load + first_lanes(n, part.load, zero);
 }
 
-/// What the update of a pack reads. `before` is K u_n, with β only.
+/// The values that the update of a pack reads. `before` is K u_n, with β only.
 struct SpaceNodes {
   Space u, v, force, before;
 };
