@@ -32,7 +32,7 @@ constexpr std::array rows{
                 [](const Case& c) { return c.wheel.width.has_value(); }},
     CaseFeature{has::camber, "motion.camber", "motion.camber = 0 and motion.slip_angle = 0",
                 has_slip_or_camber},
-    CaseFeature{has::loaded_rim, "rim", "no [rim]",
+    CaseFeature{has::loaded_rim, "rim", "no [rim]: a rim that follows [motion]",
                 [](const Case& c) { return c.rim.has_value(); }},
     CaseFeature{has::free_bodies, "disk.rim", "disk.rim = \"bonded\"",
                 [](const Case& c) { return !c.mesh && c.free_rim; }},
