@@ -119,7 +119,7 @@ def _parser() -> argparse.ArgumentParser:
     campbell.add_argument("directory", type=pathlib.Path, help="Directory of `rondo modes`")
     campbell.add_argument("--frame", choices=(FRAME, "fixed", *OLDER_FRAMES), default=FRAME,
                           metavar="FRAME",
-                          help=f"{FRAME} | fixed: frame of the frequencies; default %(default)s")
+                          help=f"Frame of the frequencies, by default {FRAME}: {FRAME} | fixed")
     campbell.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                           help="Directory for campbell-FRAME.png and .svg; default DIRECTORY/figures")
 

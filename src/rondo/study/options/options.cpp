@@ -97,7 +97,7 @@ Options pod_options(PodRequest& r) {
       last_time(r.to),
       {"--modes", "modes", &r.modes,
        "Number of modes; if left out, as many as leave out 1e-6 of the energy"},
-      {"--weight", "weight", &r.weight, "Norm, by default mass, for contact delassus", "",
+      {"--weight", "weight", &r.weight, "Norm; default mass, delassus for contact", "",
        "mass | delassus | none"},
       {"--shift", "shift", &r.shift, "Rectification by the angle itself or by whole sectors", "",
        "fourier | pitch"},
