@@ -7,6 +7,8 @@
 #include <exception>
 #include <iterator>
 #include <memory>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "rondo/io/files.hpp"
@@ -19,7 +21,7 @@ constexpr const char* head =
     "<Xdmf Version=\"3.0\">\n"
     "<Domain>\n"
     "<Grid Name=\"rondo\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-constexpr const char* tail = "</Grid>\n</Domain>\n</Xdmf>\n";
+constexpr std::string_view tail = "</Grid>\n</Domain>\n</Xdmf>\n";
 
 }  // namespace
 
@@ -39,9 +41,29 @@ Xdmf::~Xdmf() {
 
 /// Replaces the file by one with all grids. @param durable  also safe against a power cut
 void Xdmf::write_whole(bool durable) {
-  constexpr std::size_t block = 1 << 16;
   const UnfinishedFile beside(path_.string() + unfinished_ending());
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(beside.path.c_str(), "wbe"),
+  text_ = head;
+  if (times_.empty()) append_reference_grid();
+  write_grids(beside.path, "wbe", 0, durable);
+}
+
+/// Replaces the file by a copy with the grids that it does not list yet.
+void Xdmf::write_more() {
+  if (listed_ > 0) {
+    const UnfinishedFile beside(path_.string() + unfinished_ending());
+    std::error_code fault;
+    std::filesystem::copy_file(path_, beside.path, fault);
+    text_.clear();
+    if (!fault) return write_grids(beside.path, "r+be", listed_, false);
+  }
+  write_whole(false);
+}
+
+/// Writes text_, the grids from a row on, and the end of the file: over the end that is there.
+void Xdmf::write_grids(const std::filesystem::path& beside, const char* mode, std::size_t row,
+                       bool durable) {
+  constexpr std::size_t block = 1 << 16;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> out(std::fopen(beside.c_str(), mode),
                                                       std::fclose);
   if (!out) fail_on(path_, "create");
   const auto put = [&] {
@@ -49,18 +71,18 @@ void Xdmf::write_whole(bool durable) {
       fail_on(path_, "write");
     text_.clear();
   };
-  text_ = head;
-  for (std::size_t row = 0; row < times_.size(); ++row) {
+  if (row > 0 && std::fseek(out.get(), -static_cast<long>(tail.size()), SEEK_END) != 0)
+    fail_on(path_, "write");
+  for (; row < times_.size(); ++row) {
     append_grid(row);
     if (text_.size() >= block) put();
   }
-  if (times_.empty()) append_reference_grid();
   text_ += tail;
   put();
   if (std::fclose(out.release()) != 0) fail_on(path_, "write");
   if (durable)
-    replace_file(beside.path, path_);
-  else if (std::rename(beside.path.c_str(), path_.c_str()) != 0)
+    replace_file(beside, path_);
+  else if (std::rename(beside.c_str(), path_.c_str()) != 0)
     fail_on(path_, "replace");
   listed_ = times_.size();
 }
@@ -138,7 +160,7 @@ void Xdmf::append_grid(std::size_t row) {
 
 void Xdmf::add(double time) {
   times_.push_back(time);
-  if (times_.size() >= listed_ + 1 + listed_ / 16) write_whole(false);
+  if (times_.size() >= listed_ + 1 + listed_ / 16) write_more();
 }
 
 void Xdmf::close() {

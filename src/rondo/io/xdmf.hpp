@@ -73,6 +73,9 @@ class Xdmf {
   void append_reference_grid();
   void append_array(std::size_t row, const XdmfField& field);
   void write_whole(bool durable);
+  void write_more();
+  void write_grids(const std::filesystem::path& beside, const char* mode, std::size_t row,
+                   bool durable);
 
   std::filesystem::path path_;
   XdmfSeries series_;

@@ -44,9 +44,10 @@ void GeneralIntegrator::take_poses() noexcept {
 
 /// u_{n+1}, and ½ vᵀ M v before it.
 void GeneralIntegrator::move(double& kinetic) noexcept {
+  const std::span u = state_.u.plane(), v = state_.v.plane();
   for_free_nodes(model_, [&](std::size_t k) {
-    state_.u.plane()[k] += model_.dt * state_.v.plane()[k];
-    kinetic += 0.5 * model_.mass[k] * dot(state_.v.plane()[k], state_.v.plane()[k]);
+    u[k] += model_.dt * v[k];
+    kinetic += 0.5 * model_.mass[k] * dot(v[k], v[k]);
   });
 }
 
@@ -100,6 +101,7 @@ ContactReport GeneralIntegrator::solve_contacts(const BodyFrames& frames,
 void GeneralIntegrator::free_velocities(const BodyFrames& frames) noexcept {
   const double dt = model_.dt;
   const std::span<const Vec2> gradient = internal_->gradient();
+  const std::span u = state_.u.plane(), v = state_.v.plane(), v_next = state_.v_next.plane();
   for_free_nodes(model_, [&](std::size_t k) {
     if (model_.mass[k] == 0.0) return;  // of the ring
     const BodyFrame& f = frames.of(model_, k);
@@ -107,10 +109,8 @@ void GeneralIntegrator::free_velocities(const BodyFrames& frames) noexcept {
     if (!damping_.empty()) force -= damping_[k];
     if (!load_.empty()) force += load_[k];
     const Vec2 acceleration =
-        force / model_.mass[k] -
-        frame_acceleration(f.frame, model_.reference[k] + state_.u.plane()[k]);
-    const Vec2 v = state_.v.plane()[k];
-    state_.v_next.plane()[k] = v + (dt * acceleration - f.update.drag * v) / f.update.a;
+        force / model_.mass[k] - frame_acceleration(f.frame, model_.reference[k] + u[k]);
+    v_next[k] = v[k] + (dt * acceleration - f.update.drag * v[k]) / f.update.a;
   });
 }
 
@@ -138,13 +138,13 @@ void GeneralIntegrator::correct_implicit(const BodyFrames& frames, StepEnergy& e
 /// (5.3)
 void GeneralIntegrator::add_works(const BodyFrames& frames, Works& w) const noexcept {
   const double dt = model_.dt;
+  const std::span u = state_.u.plane(), v = state_.v.plane(), v_next = state_.v_next.plane();
   for_free_nodes(model_, [&](std::size_t k) {
     const double m = model_.mass[k];
     const FrameStep& frame = frames.of(model_, k).frame;
-    const Vec2 mean = 0.5 * (state_.v.plane()[k] + state_.v_next.plane()[k]);
-    const Vec2 taken = velocity_of_terms(model_.scheme, state_.v.plane()[k], mean);
-    w.frame -=
-        dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + state_.u.plane()[k]));
+    const Vec2 mean = 0.5 * (v[k] + v_next[k]);
+    const Vec2 taken = velocity_of_terms(model_.scheme, v[k], mean);
+    w.frame -= dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + u[k]));
     w.dissipation_mass += dt * model_.mass_damping * m * dot(mean, taken);
     if (!damping_.empty()) w.dissipation_stiffness += dt * dot(mean, damping_[k]);
     if (!load_.empty()) w.load += dt * dot(mean, load_[k]);
@@ -200,8 +200,9 @@ void GeneralIntegrator::advance(std::span<StepReport> reports, State* last) noex
 
 void GeneralIntegrator::fields(State& state) const noexcept {
   state.u = state_.u;
-  for_free_nodes(
-      model_, [&](std::size_t k) { state.u.plane()[k] += model_.dt * state_.v_next.plane()[k]; });
+  const std::span u = state.u.plane();
+  const std::span v_next = state_.v_next.plane();
+  for_free_nodes(model_, [&](std::size_t k) { u[k] += model_.dt * v_next[k]; });
   state.v_next = state_.v_next;
 }
 

@@ -25,12 +25,24 @@ WheelIntegrator::WheelIntegrator(const Model& model, const State& start)
   forces_.all.resize(model.n_nodes());
   if (model.stiffness_damping > 0.0) forces_.damping.resize(model.n_nodes());
   if (!model.pressures.empty()) forces_.load.resize(model.n_nodes());
+  const std::span u = start.u.plane(), v_next = start.v_next.plane();
+  const std::span next = next_.plane();
   for_free_nodes(model, [&](std::size_t k) {
-    const Vec2 travel = model.dt * start.v_next.plane()[k];
-    next_.plane()[k] = start.u.plane()[k] + travel;
+    next[k] = u[k] + model.dt * v_next[k];
     absolute_[k] = rim_.frame().rotation *
-                   velocity_on_rim(rim_, model.dt, arm(k), next_.plane()[k] - start.u.plane()[k]);
+                   velocity_on_rim(rim_, model.dt, model.reference[k] + u[k], next[k] - u[k]);
   });
+}
+
+/// As the rim sees it, in the half step before u_{n+1}.
+void WheelIntegrator::relative_before(std::span<Vec2> velocity) const noexcept {
+  const std::span u = state_.u.plane(), before = before_.plane();
+  for_free_nodes(model_, [&](std::size_t k) { velocity[k] = (u[k] - before[k]) / model_.dt; });
+}
+
+void WheelIntegrator::relative_after(std::span<Vec2> velocity) const noexcept {
+  const std::span u = state_.u.plane(), next = next_.plane();
+  for_free_nodes(model_, [&](std::size_t k) { velocity[k] = (next[k] - u[k]) / model_.dt; });
 }
 
 /// The rim and u to t_{n+1}; kinetic energy of the half step before.
@@ -40,8 +52,9 @@ void WheelIntegrator::move(StepEnergy& energy) noexcept {
   std::swap(before_, state_.u);
   std::swap(state_.u, next_);
   const Complex back = conj(state_.frame.rotation);
+  const std::span v = state_.v.plane();
   for_free_nodes(model_, [&](std::size_t k) {
-    state_.v.plane()[k] = back * absolute_[k];
+    v[k] = back * absolute_[k];
     energy.kinetic += 0.5 * model_.mass[k] * dot(absolute_[k], absolute_[k]);
   });
 }
@@ -50,18 +63,18 @@ void WheelIntegrator::move(StepEnergy& energy) noexcept {
 RimForce WheelIntegrator::find_forces(double& strain) noexcept {
   internal_->evaluate(state_.u);
   const std::span<Vec2> relative = state_.v_next.plane();  // not yet of use
-  for_free_nodes(model_, [&](std::size_t k) { relative[k] = relative_before(k); });
+  relative_before(relative);
   strain = internal_->half_step_energy(state_.u, relative);
   if (!forces_.damping.empty()) internal_->damping(forces_.damping);
   if (!forces_.load.empty()) pressure_forces(model_, state_.u, state_.frame.time, forces_.load);
-  const std::span<const Vec2> gradient = internal_->gradient();
+  const std::span<const Vec2> gradient = internal_->gradient(), u = state_.u.plane();
   RimForce sum;
   for_free_nodes(model_, [&](std::size_t k) {
     Vec2& q = forces_.all[k];
     q = gradient[k] + model_.mass_damping * model_.mass[k] * relative[k];
     if (!forces_.damping.empty()) q += forces_.damping[k];
     sum.force += q;
-    sum.moment += cross(arm(k), q);
+    sum.moment += cross(model_.reference[k] + u[k], q);
   });
   const RimForce pressed = pressure_on_rim(model_, forces_.load);
   rim_load_ = pressed;
@@ -70,25 +83,26 @@ RimForce WheelIntegrator::find_forces(double& strain) noexcept {
 
 /// V⁺ = V⁻ + Δt (g - R q/m) + r/m.
 ContactReport WheelIntegrator::push(Vec2 gravity) noexcept {
+  const std::span v = state_.v.plane(), v_next = state_.v_next.plane();
   for_free_nodes(model_, [&](std::size_t k) {
     Vec2 force = -forces_.all[k];
     if (!forces_.load.empty()) force += forces_.load[k];
-    state_.v_next.plane()[k] = state_.v.plane()[k] + model_.dt * (force / model_.mass[k] + gravity);
+    v_next[k] = v[k] + model_.dt * (force / model_.mass[k] + gravity);
   });
   const FrameStep& frame = state_.frame;
   const BodyFrames frames({frame, {{1.0, 0.0}, {0.0, 0.0}}, ContactStep(model_, frame)});
   const ContactReport report = contact_.solve(frames, frame.center.plane(), state_);
-  for_free_nodes(model_, [&](std::size_t k) {
-    absolute_[k] += frame.rotation * (state_.v_next.plane()[k] - state_.v.plane()[k]);
-  });
+  for_free_nodes(model_,
+                 [&](std::size_t k) { absolute_[k] += frame.rotation * (v_next[k] - v[k]); });
   return report;
 }
 
 /// u_{n+2}.
 void WheelIntegrator::find_next() noexcept {
-  next_ = state_.u;
+  const std::span u = state_.u.plane(), v_next = state_.v_next.plane(), next = next_.plane();
+  std::ranges::copy(u, next.begin());
   for_free_nodes(model_, [&](std::size_t k) {
-    next_.plane()[k] += travel_on_rim(rim_, model_.dt, arm(k), state_.v_next.plane()[k]);
+    next[k] += travel_on_rim(rim_, model_.dt, model_.reference[k] + u[k], v_next[k]);
   });
 }
 
@@ -102,11 +116,13 @@ void WheelIntegrator::add_works(Vec2 gravity, Works& w) const noexcept {
   w.load += 0.5 * dt *
             (dot(center, rim_load_.force) + (rim_.spin() + rim_.spin_before()) * rim_load_.moment);
   const std::span<const Vec2> gradient = internal_->gradient();
+  const std::span u_before = before_.plane(), u = state_.u.plane(), next = next_.plane(),
+                  v = state_.v.plane(), v_next = state_.v_next.plane();
   for_free_nodes(model_, [&](std::size_t k) {
-    const Vec2 was = relative_before(k), is = relative_after(k);
-    const Vec2 excess = bend * arm(k) + dt * (after * is + before * was);
+    const Vec2 was = (u[k] - u_before[k]) / dt, is = (next[k] - u[k]) / dt;
+    const Vec2 excess = bend * (model_.reference[k] + u[k]) + dt * (after * is + before * was);
     const Vec2 way = excess + dt * (is + was);  // D
-    const Vec2 mean = 0.5 * (state_.v.plane()[k] + state_.v_next.plane()[k]);
+    const Vec2 mean = 0.5 * (v[k] + v_next[k]);
     w.scheme -= 0.5 * dot(gradient[k], excess);
     w.dissipation_mass += 0.5 * alpha * model_.mass[k] * dot(was, way);
     if (!forces_.damping.empty()) w.dissipation_stiffness += 0.5 * dot(forces_.damping[k], way);
@@ -149,14 +165,14 @@ void WheelIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   last->u = state_.u;
   last->active = state_.active;
   if (last->v.empty()) return;
-  for_free_nodes(model_, [&](std::size_t k) { last->v.plane()[k] = relative_before(k); });
+  relative_before(last->v);
   if (last->v_next.empty()) return;
-  for_free_nodes(model_, [&](std::size_t k) { last->v_next.plane()[k] = relative_after(k); });
+  relative_after(last->v_next);
 }
 
 void WheelIntegrator::fields(State& state) const noexcept {
   state.u = next_;
-  for_free_nodes(model_, [&](std::size_t k) { state.v_next.plane()[k] = relative_after(k); });
+  relative_after(state.v_next);
 }
 
 SavedState WheelIntegrator::save() const {

@@ -40,15 +40,8 @@ class WheelIntegrator final : public Integrator, public Resumable {
   ContactReport push(Vec2 gravity) noexcept;
   void find_next() noexcept;
   void add_works(Vec2 gravity, Works& works) const noexcept;
-  [[nodiscard]] Vec2 arm(std::size_t k) const noexcept {
-    return model_.reference[k] + state_.u.plane()[k];
-  }
-  [[nodiscard]] Vec2 relative_before(std::size_t k) const noexcept {
-    return (state_.u.plane()[k] - before_.plane()[k]) / model_.dt;
-  }
-  [[nodiscard]] Vec2 relative_after(std::size_t k) const noexcept {
-    return (next_.plane()[k] - state_.u.plane()[k]) / model_.dt;
-  }
+  void relative_after(std::span<Vec2> velocity) const noexcept;
+  void relative_before(std::span<Vec2> velocity) const noexcept;
 
   const Model& model_;
   LoadedRim rim_;

@@ -73,14 +73,13 @@ void CoarsePart::attempt(Vec2 pull, std::span<const Vec2> multiplier) {
 void CoarsePart::find_load(Vec2 pull) {
   const double dt = whole_.dt, ahead = 0.5 * dt + whole_.stiffness_damping;
   const Complex drag{whole_.mass_damping, 2.0 * spin_};
-  for (const int node : part_.free)
-    at_[at(node)] = fields_.u.plane()[at(node)] + ahead * fields_.v.plane()[at(node)];
+  const std::span u = fields_.u.plane(), v = fields_.v.plane();
+  for (const int node : part_.free) at_[at(node)] = u[at(node)] + ahead * v[at(node)];
   apply(part_.stiffness, at_, force_, whole_.threads);
   for (std::size_t i = 0; i < part_.free.size(); ++i) {
     const std::size_t k = at(part_.free[i]);
-    const Vec2 v = fields_.v.plane()[k],
-               arm = whole_.reference[k] + fields_.u.plane()[k] + 0.5 * dt * v;
-    const Vec2 acceleration = spin_ * spin_ * arm - drag * v - pull;
+    const Vec2 arm = whole_.reference[k] + u[k] + 0.5 * dt * v[k];
+    const Vec2 acceleration = spin_ * spin_ * arm - drag * v[k] - pull;
     const Vec2 load = dt * (part_.mass[k] * acceleration - force_[k]);
     load_[row_of(i)] = load.x;
     load_[row_of(i) + 1] = load.y;
@@ -111,11 +110,11 @@ void CoarsePart::find_travel(const PartFields& from, std::span<Vec2> travel) con
 
 void CoarsePart::accept() {
   find_works(pull_);
+  const std::span u = fields_.u.plane(), v = fields_.v.plane();
   for (std::size_t i = 0; i < part_.free.size(); ++i) {
     const std::size_t k = at(part_.free[i]);
-    const Vec2 mean = mean_velocity(fields_, i);
-    fields_.u.plane()[k] += whole_.dt * mean;
-    fields_.v.plane()[k] += 2.0 * Vec2{change_[row_of(i)], change_[row_of(i) + 1]};
+    u[k] += whole_.dt * mean_velocity(fields_, i);
+    v[k] += 2.0 * Vec2{change_[row_of(i)], change_[row_of(i) + 1]};
   }
 }
 
@@ -126,9 +125,10 @@ void CoarsePart::find_works(Vec2 pull) {
   for (std::size_t i = 0; i < part_.free.size(); ++i)
     at_[at(part_.free[i])] = mean_velocity(fields_, i);
   if (beta > 0.0) apply(part_.stiffness, at_, force_, whole_.threads);
+  const std::span u = fields_.u.plane();
   for (const int node : part_.free) {
     const std::size_t k = at(node);
-    const Vec2 mean = at_[k], middle = fields_.u.plane()[k] + 0.5 * dt * mean;
+    const Vec2 mean = at_[k], middle = u[k] + 0.5 * dt * mean;
     const double mass = part_.mass[k];
     works_.frame += dt * mass * dot(mean, spin_ * spin_ * (whole_.reference[k] + middle) - pull);
     works_.dissipation_mass += dt * alpha * mass * dot(mean, mean);
@@ -138,11 +138,12 @@ void CoarsePart::find_works(Vec2 pull) {
 
 /// (12.4): ½ vᵀM v + ½ uᵀK u
 void CoarsePart::add_energy(double& kinetic, double& strain) {
-  apply(part_.stiffness, fields_.u, force_, whole_.threads);
+  const std::span u = fields_.u.plane(), v = fields_.v.plane();
+  apply(part_.stiffness, u, force_, whole_.threads);
   for (const int node : part_.free) {
     const std::size_t k = at(node);
-    kinetic += 0.5 * part_.mass[k] * dot(fields_.v.plane()[k], fields_.v.plane()[k]);
-    strain += 0.5 * dot(fields_.u.plane()[k], force_[k]);
+    kinetic += 0.5 * part_.mass[k] * dot(v[k], v[k]);
+    strain += 0.5 * dot(u[k], force_[k]);
   }
 }
 

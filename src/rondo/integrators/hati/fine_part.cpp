@@ -92,7 +92,8 @@ void FinePart::accept() {
 /// u += δ/2 v
 void FinePart::move_half() noexcept {
   const double half = 0.5 * model_.dt;
-  for_free_nodes(model_, [&](std::size_t k) { state_.u.plane()[k] += half * state_.v.plane()[k]; });
+  const std::span u = state_.u.plane(), v = state_.v.plane();
+  for_free_nodes(model_, [&](std::size_t k) { u[k] += half * v[k]; });
 }
 
 void FinePart::find_forces(std::span<const Vec2> multiplier) noexcept {
@@ -108,12 +109,11 @@ void FinePart::find_forces(std::span<const Vec2> multiplier) noexcept {
 /// v⁺ = v⁻ + [δ f/m - drag v⁻]/a, without contact (3.4). @param reference X: 0 for what is linear
 void FinePart::find_free_velocities(const BodyFrame& frame,
                                     std::span<const Vec2> reference) noexcept {
+  const std::span u = state_.u.plane(), v = state_.v.plane(), v_next = state_.v_next.plane();
   for_free_nodes(model_, [&](std::size_t k) {
-    const Vec2 acceleration = -(force_[k] / model_.mass[k]) -
-                              frame_acceleration(frame.frame, reference[k] + state_.u.plane()[k]);
-    const Vec2 v = state_.v.plane()[k];
-    state_.v_next.plane()[k] =
-        v + (model_.dt * acceleration - frame.update.drag * v) / frame.update.a;
+    const Vec2 acceleration =
+        -(force_[k] / model_.mass[k]) - frame_acceleration(frame.frame, reference[k] + u[k]);
+    v_next[k] = v[k] + (model_.dt * acceleration - frame.update.drag * v[k]) / frame.update.a;
   });
 }
 
@@ -129,20 +129,21 @@ void FinePart::solve_contacts(const BodyFrames& frames, FineContact& found) {
 /// δ v̄ of the interface.
 void FinePart::add_travel(std::span<Vec2> travel) const noexcept {
   const double half = 0.5 * model_.dt;
+  const std::span v = state_.v.plane(), v_next = state_.v_next.plane();
   for (std::size_t i = 0; i < interface_.size(); ++i) {
     const std::size_t k = at(interface_[i]);
-    travel[i] += half * (state_.v.plane()[k] + state_.v_next.plane()[k]);
+    travel[i] += half * (v[k] + v_next[k]);
   }
 }
 
 /// (5.3) of a kick, without that of the multiplier.
 void FinePart::add_works(const FrameStep& frame) noexcept {
   const double dt = model_.dt, alpha = model_.mass_damping, beta = model_.stiffness_damping;
+  const std::span u = state_.u.plane(), v = state_.v.plane(), v_next = state_.v_next.plane();
   for_free_nodes(model_, [&](std::size_t k) {
     const double m = model_.mass[k];
-    const Vec2 mean = 0.5 * (state_.v.plane()[k] + state_.v_next.plane()[k]);
-    works_.frame -=
-        dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + state_.u.plane()[k]));
+    const Vec2 mean = 0.5 * (v[k] + v_next[k]);
+    works_.frame -= dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + u[k]));
     works_.dissipation_mass += dt * alpha * m * dot(mean, mean);
     if (!rate_.empty()) works_.dissipation_stiffness += dt * beta * dot(mean, rate_[k]);
   });
@@ -151,14 +152,13 @@ void FinePart::add_works(const FrameStep& frame) noexcept {
 /// (12.4): ½ vᵀ(M - δ²/4 K)v + ½ uᵀK u
 void FinePart::add_energy(double& kinetic, double& strain) {
   const double quarter = 0.25 * model_.dt * model_.dt;
-  apply(model_.stiffness, fields_.v, force_, model_.threads);
+  const std::span u = fields_.u.plane(), v = fields_.v.plane();
+  apply(model_.stiffness, v, force_, model_.threads);
   for_free_nodes(model_, [&](std::size_t k) {
-    const Vec2 v = fields_.v.plane()[k];
-    kinetic += 0.5 * dot(v, model_.mass[k] * v - quarter * force_[k]);
+    kinetic += 0.5 * dot(v[k], model_.mass[k] * v[k] - quarter * force_[k]);
   });
-  apply(model_.stiffness, fields_.u, force_, model_.threads);
-  for_free_nodes(model_,
-                 [&](std::size_t k) { strain += 0.5 * dot(fields_.u.plane()[k], force_[k]); });
+  apply(model_.stiffness, u, force_, model_.threads);
+  for_free_nodes(model_, [&](std::size_t k) { strain += 0.5 * dot(u[k], force_[k]); });
 }
 
 bool FinePart::same_impulses() const noexcept {
