@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "calls.hpp"
 
+#include <algorithm>
+#include <regex>
 #include <thread>
 
+#include "options.hpp"
 #include "rondo/core/error.hpp"
 
 namespace rondo::python {
@@ -37,8 +40,28 @@ void end_calls() {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
 }
 
+void Call::take(const py::dict& given, const study::Options& options) {
+  take_options(given, options);
+  for (const study::Option& option : options)
+    if (!option.python.empty())
+      names_.emplace_back(option.words.substr(0, option.words.find(',')), option.python);
+}
+
+std::string Call::in_python(const std::string& text) const {
+  static const std::regex option("--?[a-z][a-z-]*");
+  std::string named;
+  auto from = text.cbegin();
+  for (std::sregex_iterator found(text.begin(), text.end(), option), end; found != end; ++found) {
+    const std::string word = found->str();
+    const auto name = std::ranges::find(names_, word, [](const auto& n) { return n.first; });
+    named.append(from, (*found)[0].first).append(name == names_.end() ? word : name->second);
+    from = (*found)[0].second;
+  }
+  return named.append(from, text.cend());
+}
+
 std::function<void(const std::string&)> Call::warn() {
-  return [this](const std::string& text) { warnings_.push_back(text); };
+  return [this](const std::string& text) { warnings_.push_back(in_python(text)); };
 }
 
 std::function<void(long long, long long)> Call::progress() {
@@ -66,6 +89,13 @@ void Call::work(const std::function<void()>& work) {
   try {
     const py::gil_scoped_release release;
     work();
+  } catch (const InputError& error) {
+    finish();
+    std::vector<Fault> faults = error.faults();
+    for (Fault& fault : faults)
+      for (std::string* text : {&fault.key, &fault.message, &fault.allowed})
+        *text = in_python(*text);
+    throw InputError(std::move(faults));
   } catch (...) {
     finish();
     throw;

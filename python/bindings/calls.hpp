@@ -9,9 +9,12 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rondo/output/run_options.hpp"
+#include "rondo/study/options/options.hpp"
 
 namespace rondo::python {
 
@@ -38,6 +41,9 @@ class Call {
   using Clock = std::chrono::steady_clock;
   static constexpr std::chrono::milliseconds period{50};  ///< between two looks for signals
 
+  /// Fills the requests that options belong to. From then on, errors and warnings call them by
+  /// their names in Python. @throws InputError as take_options
+  void take(const py::dict& given, const study::Options& options);
   [[nodiscard]] std::function<void(const std::string&)> warn();
   /// To be called now and then without the lock: a signal that Python makes an exception of asks
   /// for a clean end.
@@ -53,7 +59,11 @@ class Call {
 
  private:
   void look();
+  /// The text with "--from" as "from_time".
+  [[nodiscard]] std::string in_python(const std::string& text) const;
 
+  std::vector<std::pair<std::string_view, std::string_view>> names_{
+      {"-o", "output"}};  ///< "--from", "from_time"
   std::vector<std::string> warnings_;
   std::atomic<bool> stop_{false};
   Clock::time_point looked_ = Clock::now();

@@ -10,7 +10,6 @@
 #include "arrays.hpp"
 #include "calls.hpp"
 #include "in_process_team.hpp"
-#include "options.hpp"
 #include "rondo/analysis/modes/modes.hpp"
 #include "rondo/analysis/run.hpp"
 #include "rondo/analysis/simulation/solve.hpp"
@@ -39,7 +38,7 @@ py::tuple run(const fs::path& file, const Settings& settings, const fs::path& di
               const py::dict& given) {
   Call call;
   study::RunOptions options;
-  take_options(given, run_options(options));
+  call.take(given, run_options(options));
   options.directory = directory;
   call.give(options);
   study::RunReport report;
@@ -67,7 +66,7 @@ py::dict arrays_of(study::RecordedSnapshots s) {
 py::dict solve(const fs::path& file, const Settings& settings, const py::dict& given) {
   Call call;
   study::RunOptions options;
-  take_options(given, run_options(options));
+  call.take(given, run_options(options));
   call.give(options);
   study::Solution s;
   call.work([&] { s = study::solve_case(study::read_case(file, settings), options); });
@@ -89,7 +88,7 @@ py::tuple modes(const fs::path& file, const Settings& settings, const fs::path& 
                 const py::dict& given) {
   Call call;
   study::ModesRequest request;
-  take_options(given, modes_options(request));
+  call.take(given, modes_options(request));
   request.run.directory = directory;
   call.give(request.run);
   study::ModesReport report;
@@ -103,7 +102,7 @@ fs::path pod(const std::vector<fs::path>& runs, const fs::path& output, const py
   Call call;
   study::PodRequest request;
   request.runs = runs;
-  take_options(given, pod_options(request));
+  call.take(given, pod_options(request));
   request.directory = output;
   request.warn = call.warn();
   request.progress = call.progress();
@@ -120,7 +119,7 @@ void reduce(const std::vector<fs::path>& runs, const fs::path& output, const py:
   study::ReduceRequest request;
   request.runs = runs;
   request.output = output;
-  take_options(given, reduce_options(request));
+  call.take(given, reduce_options(request));
   request.warn = call.warn();
   request.progress = call.progress();
   call.work([&] { static_cast<void>(study::run_reduce(request)); });
@@ -135,7 +134,7 @@ py::tuple sweep(const fs::path& study_file, const Settings& settings, const fs::
   request.study = study_file;
   request.settings = settings;
   request.directory = directory;
-  take_options(given, sweep_options(request));
+  call.take(given, sweep_options(request));
   request.stop = &call.stop();
   request.warn = call.warn();
   request.progress = call.progress();

@@ -30,7 +30,9 @@ std::string wanted(const study::Option& option) {
 void take(const py::dict& given, const study::Option& option) {
   const std::string name(option.python);
   const py::object value = given[name.c_str()];
+  const bool is_switch = std::holds_alternative<bool*>(option.target);
   try {
+    if (py::isinstance<py::bool_>(value) && !is_switch) throw py::cast_error();
     std::visit(
         [&](auto* target) { *target = value.cast<std::remove_pointer_t<decltype(target)>>(); },
         option.target);

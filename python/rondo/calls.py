@@ -105,7 +105,6 @@ def modes(case: Place, output: Place | None = None, settings: Mapping[str, Any] 
           overwrite: bool = False) -> Modes:
     """Frequencies, shapes and critical speeds of a case's body (`rondo modes`), made in this
     process and opened."""
-    spins = None if spins is None else [float(spin) for spin in spins]
     options = options_in("modes", locals())
     case = place_of(case)
     directory = (place_of(output) if output is not None

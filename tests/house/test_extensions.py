@@ -18,7 +18,7 @@ PATCHES = pathlib.Path(__file__).resolve().parent / "extensions"
 # Files that are there already, at the most: those of the program, and all with the manual, whose
 # tables a test writes.
 MOST = {"key": (2, 3), "column": (1, 2), "scheme": (2, 3), "material": (3, 4), "analysis": (2, 3),
-        "friction": (1, 1)}
+        "friction": (1, 1), "field": (8, 8)}
 
 
 def files_of(patch):

@@ -37,10 +37,22 @@ def test_help_tells_what_they_mean():
 
 
 @pytest.mark.parametrize("options, said", [
-    ({"threads": 0}, r"threads = 0: is out of bounds.*1 to 1024"), ({"threads": "two"}, r"threads = 'two': is of a wrong type \(allowed: a whole number\)"),
+    ({"threads": 0}, r"threads = 0: is out of bounds.*1 to 1024"), ({"threads": True}, r"threads = True: is of a wrong type"),
+    ({"threads": "two"}, r"threads = 'two': is of a wrong type \(allowed: a whole number\)"),
     ({"overwrite": True, "resume": True}, "resume.*continues what overwrite would remove.*one of the two"),
     ({"step_factor": 2.0}, "step_factor = 2.0: is an option of a reduced run.*with reduced = a model of rondo.reduce"),
     ({"snapshots": "modes"}, "snapshots = modes: is an option of a reduced run")])
 def test_what_the_command_line_refuses_is_refused(case, options, said):
     with pytest.raises(rondo.InputError, match=said):
         rondo.run(case, "out", **options)
+
+
+def test_errors_call_options_by_their_names_in_python(case):
+    for options, said in [({"spins": 5.0}, r"spins = 5\.0: is of a wrong type \(allowed: a list of numbers\)"),
+                          ({"sweep": "0:1"}, "sweep = 0:1: is no sweep")]:
+        with pytest.raises(rondo.InputError, match=f"^{said}"):
+            rondo.modes(case, "out", **options)
+    rondo.run(case, "out", {"time.end": 0.001})
+    for options, said in [({"field": "heat"}, "field = heat: "), ({"from_time": 5.0, "to_time": 6.0}, "from_time, to_time: ")]:
+        with pytest.raises(rondo.InputError, match=f"^{said}"):
+            rondo.pod("out", **options)
