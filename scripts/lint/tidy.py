@@ -22,7 +22,7 @@ import sys
 import time
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.MULTILINE)
-BATCH = 8
+BATCH = 16
 ROOT = pathlib.Path.cwd()
 
 
@@ -85,7 +85,7 @@ def to_look_at(sources, names):
 def batches(sources, paths, size):
     alike = {}
     for path in paths:
-        alike.setdefault((path.parent, *sources.flags[path]), []).append(path)
+        alike.setdefault((path.relative_to(ROOT).parts[:3], *sources.flags[path]), []).append(path)
     for group in alike.values():
         yield from (group[i:i + size] for i in range(0, len(group), size))
 

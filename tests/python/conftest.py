@@ -39,6 +39,10 @@ TO_CRUSH = ["--set", "analysis.kind=crush", "--set", "analysis.depth=0.02", "--s
             "analysis.increments=40"]
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "long: run by scripts/long.sh only (CONTRIBUTING.md)")
+
+
 def ok(*arguments):
     done = run(*arguments, "--quiet")
     assert done.returncode == 0, done.stderr

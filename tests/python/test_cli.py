@@ -35,6 +35,7 @@ def test_figures_of_a_run(smooth, tmp_path):
         assert path.stat().st_size < 400e3
 
 
+@pytest.mark.long
 def test_figures_go_into_the_directory(air, tmp_path):
     run = shutil.copytree(air, tmp_path / "air")
     text = (run / "run.json").read_text()

@@ -212,6 +212,7 @@ rondo._core.run()
 """
 
 
+@pytest.mark.long
 def test_mypy_reads_the_installed_package(installed, tmp_path):
     """Its types are shipped: a right use has no errors, and each wrong one has one."""
     if not shutil.which("mypy", path="/usr/bin"):
@@ -247,6 +248,7 @@ def test_reading_does_not_need_matplotlib(smooth):
     assert (done.stdout, done.stderr) == ("[]\n", "")
 
 
+@pytest.mark.long
 def test_the_guide(runs, tmp_path, monkeypatch):
     """Its examples run, in their order, where it says: beside the directories of two runs and a
     sweep."""

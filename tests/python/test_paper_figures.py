@@ -18,6 +18,7 @@ from rondo.figures import (draw_paper, figure_2, figure_3, figure_3_forces, figu
 from rondo.plots.curves import force_spectrum
 from rondo.plots.marks import edge_displacement, energy
 
+pytestmark = pytest.mark.long
 WIDTHS = {  # in
     "figure-2": style.PAGE, "figure-3-smooth": style.PAGE, "figure-3-treaded": style.PAGE,
     "figure-3-forces": style.PAGE, "figure-4-displacement": style.PAGE,

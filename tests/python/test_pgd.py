@@ -210,6 +210,7 @@ def test_convergence_without_modes(solved, tmp_path):
     assert len(ax.figure.axes) == 1 and ax.get_xlabel() == "iteration (–)"
 
 
+@pytest.mark.long
 def test_the_figures_of_a_run(solved, tmp_path):
     names = {path.name for path in draw_run(rondo.open(solved), tmp_path)}
     assert {"convergence.png", "modes-displacement-pgd.png", "pod-spectrum.png"} <= names

@@ -302,6 +302,7 @@ def test_many_snapshots_are_thinned_and_that_is_said(smooth):
 
 
 @pytest.mark.skipif(bool(WITHOUT), reason=WITHOUT)
+@pytest.mark.long
 def test_the_ledge_is_below_5_mb(tmp_path):
     done = run("run", ROOT / "cases" / "ledge-treaded.toml", "-o", tmp_path / "ledge", "--quiet")
     assert done.returncode == 0

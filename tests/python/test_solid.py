@@ -418,6 +418,7 @@ def test_loads_of_a_rim_and_of_steady_states_are_the_same(folder):
     assert len(tyre.with_values(sweeps_[0], {"analysis.load": 13e3})) == 2
 
 
+@pytest.mark.long
 def test_tyre_by_command(maps, tmp_path):
     done = rondo_module("tyre", maps["time"].directory, maps["steady"].directory, "-o", tmp_path)
     assert (done.returncode, done.stderr) == (0, "")

@@ -132,6 +132,7 @@ def test_forces_are_the_sums_of_the_footprint(run):
     assert force.shape == (len(run.mesh.boundary), 3) and force[:, 0].sum() == pytest.approx(normal)
 
 
+@pytest.mark.long
 def test_figures(run, tmp_path):
     done = rondo_module("figures", run.directory, "-o", tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
