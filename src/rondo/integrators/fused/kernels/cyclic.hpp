@@ -124,16 +124,6 @@ inline void product(const CyclicStrip& s, int pack, int n, Forces out) noexcept 
   }
 }
 
-inline void add_first_lanes(int n, const Sums& part, Sums& sums) noexcept {
-  const Pack zero = all(0.0);
-  sums.kinetic = sums.kinetic + first_lanes(n, part.kinetic, zero);
-  sums.strain = sums.strain + first_lanes(n, part.strain, zero);
-  sums.frame = sums.frame + first_lanes(n, part.frame, zero);
-  sums.mass = sums.mass + first_lanes(n, part.mass, zero);
-  sums.stiffness = sums.stiffness + first_lanes(n, part.stiffness, zero);
-  sums.load = sums.load + first_lanes(n, part.load, zero);
-}
-
 inline Vectors first_of(int n, Vectors a, Vectors b) noexcept {
   return {first_lanes(n, a.x, b.x), first_lanes(n, a.y, b.y)};
 }
@@ -198,22 +188,6 @@ inline void update_pack(const CyclicStrip& s, const Factors& f, const RowInHand&
   }
 }
 
-template <bool Loaded>
-inline void add_sums(double* to, double mass, const Sums& s) noexcept {
-  using namespace rondo::dynamics::kernels;
-  const Pack m = all(mass);
-  const auto add = [&](int k, Pack value) { store(to + k * lanes, load(to + k * lanes) + value); };
-  const auto add_mass = [&](int k, Pack value) {
-    store(to + k * lanes, fma(m, value, load(to + k * lanes)));
-  };
-  add_mass(sum_kinetic, s.kinetic);
-  add(sum_strain, s.strain);
-  add_mass(sum_frame, s.frame);
-  add_mass(sum_mass, s.mass);
-  add(sum_stiffness, s.stiffness);
-  if constexpr (Loaded) add(sum_load, s.load);
-}
-
 /// All rows of the strip on packs [first, last), at most a group. `sums` null: the halo.
 template <bool Loaded, bool Beta, bool Unsteady>
 inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
@@ -238,7 +212,7 @@ inline void group(const CyclicStrip& s, const Factors& f, int first, int last,
       else
         update_pack<false, Loaded, Beta, Unsteady>(s, f, in_hand, column, g, own);
     }
-    if (sums) add_sums<Loaded>(sums, row.mass, own);
+    if (sums) add_row_sums<Loaded>(sums, row.mass, own);
   }
 }
 

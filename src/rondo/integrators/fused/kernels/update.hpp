@@ -3,6 +3,7 @@
 /// for both operators. Included after a pack_*.hpp.
 #pragma once
 #include "rondo/integrators/fused/kernels/kernels.hpp"
+#include "rondo/integrators/fused/kernels/sums.hpp"
 
 namespace {
 
@@ -38,16 +39,6 @@ inline Vectors minus(Vectors a, Vectors b) noexcept {
 /// z a + b, a complex z.
 inline Vectors add_turned(Vectors z, Vectors a, Vectors b) noexcept {
   return {fma(z.x, a.x, fnma(z.y, a.y, b.x)), fma(z.x, a.y, fma(z.y, a.x, b.y))};
-}
-
-/// Sums of the row in hand; those with the mass are multiplied by it when the row is done.
-struct Sums {
-  Pack kinetic, strain, frame, mass, stiffness, load;
-};
-
-inline Sums no_sums() noexcept {
-  const Pack zero = all(0.0);
-  return {zero, zero, zero, zero, zero, zero};
 }
 
 /// StepFactors in every lane.

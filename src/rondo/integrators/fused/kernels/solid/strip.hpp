@@ -3,6 +3,7 @@
 /// axial component beside. Included after a pack_*.hpp.
 #pragma once
 #include "rondo/integrators/fused/kernels/solid/product.hpp"
+#include "rondo/integrators/fused/kernels/sums.hpp"
 
 namespace {
 
@@ -29,28 +30,6 @@ struct Space {
 }
 [[gnu::always_inline]] inline Space first_of(int n, Space a, Space b) noexcept {
   return {first_lanes(n, a.r, b.r), first_lanes(n, a.t, b.t), first_lanes(n, a.z, b.z)};
-}
-
-/// Sums of the row in hand; those with the mass are multiplied by it when the row is done.
-struct SpaceSums {
-  Pack kinetic, strain, frame, mass, stiffness, load;
-};
-
-[[gnu::always_inline]] inline SpaceSums no_space_sums() noexcept {
-  const Pack zero = all(0.0);
-  return {zero, zero, zero, zero, zero, zero};
-}
-
-/// Adds the first n lanes.
-[[gnu::always_inline]] inline void add_first(int n, const SpaceSums& part,
-                                             SpaceSums& sums) noexcept {
-  const Pack zero = all(0.0);
-  sums.kinetic = sums.kinetic + first_lanes(n, part.kinetic, zero);
-  sums.strain = sums.strain + first_lanes(n, part.strain, zero);
-  sums.frame = sums.frame + first_lanes(n, part.frame, zero);
-  sums.mass = sums.mass + first_lanes(n, part.mass, zero);
-  sums.stiffness = sums.stiffness + first_lanes(n, part.stiffness, zero);
-  sums.load = sums.load + first_lanes(n, part.load, zero);
 }
 
 /// The values that the update of a pack reads. `before` is K u_n, with β only.
@@ -99,7 +78,7 @@ template <bool Unsteady>
 template <bool Loaded, bool Beta, bool Unsteady>
 [[gnu::always_inline]] inline Space space_update(const SolidStrip& s, const SolidRowInHand& row,
                                                  const SpaceNodes& n, const Space& frame,
-                                                 SpaceSums& sums) noexcept {
+                                                 Sums& sums) noexcept {
   const rondo::dynamics::kernels::StepFactors& f = s.step->plane;
   Space elastic = n.force;
   const Space change = {n.force.r - n.before.r, n.force.t - n.before.t, n.force.z - n.before.z};
@@ -147,7 +126,7 @@ template <bool Loaded, bool Beta, bool Unsteady>
 template <bool Tail, bool Loaded, bool Beta, bool Unsteady>
 [[gnu::always_inline]] inline void space_pack(const SolidStrip& s, const SolidRowInHand& row,
                                               std::ptrdiff_t row_at, std::ptrdiff_t column,
-                                              const double* force, SpaceSums& sums) noexcept {
+                                              const double* force, Sums& sums) noexcept {
   const std::ptrdiff_t at = row_at + column;
   double* const v = s.velocity + at;
   double* const p = s.force + at;
@@ -162,9 +141,9 @@ template <bool Tail, bool Loaded, bool Beta, bool Unsteady>
     after = space_update<Loaded, Beta, Unsteady>(s, row, n, frame, sums);
   } else {
     const int own = s.columns - static_cast<int>(column);
-    SpaceSums part = no_space_sums();
+    Sums part = no_sums();
     after = space_update<Loaded, Beta, Unsteady>(s, row, n, frame, part);
-    add_first(own, part, sums);
+    add_first_lanes(own, part, sums);
     if (s.keep_tail) {
       after = first_of(own, after, n.v);
       n.force = first_of(own, n.force, n.before);
@@ -175,22 +154,6 @@ template <bool Tail, bool Loaded, bool Beta, bool Unsteady>
   store_space(s.next + at, s.stride,
               {fma(dt, after.r, n.u.r), fma(dt, after.t, n.u.t), fma(dt, after.z, n.u.z)});
   if constexpr (Beta) store_space(p, s.stride, n.force);
-}
-
-template <bool Loaded>
-inline void add_space_sums(double* to, double mass, const SpaceSums& s) noexcept {
-  using namespace rondo::dynamics::kernels;
-  const Pack m = all(mass);
-  const auto add = [&](int k, Pack value) { store(to + k * lanes, load(to + k * lanes) + value); };
-  const auto add_mass = [&](int k, Pack value) {
-    store(to + k * lanes, fma(m, value, load(to + k * lanes)));
-  };
-  add_mass(sum_kinetic, s.kinetic);
-  add(sum_strain, s.strain);
-  add_mass(sum_frame, s.frame);
-  add_mass(sum_mass, s.mass);
-  add(sum_stiffness, s.stiffness);
-  if constexpr (Loaded) add(sum_load, s.load);
 }
 
 /// All rows of the strip on the own packs [first, last), at most a group, and on those of the halo
@@ -205,13 +168,13 @@ inline void solid_group(const SolidStrip& s, int first, int last, int left, int 
     const SolidRowInHand row = row_in_hand(s, r);
     const std::ptrdiff_t at = s.rows[r].at;
     const auto f = [&](int pack) { return force.f[r][0] + place(pack - first + left); };
-    SpaceSums own = no_space_sums(), others = no_space_sums();
+    Sums own = no_sums(), others = no_sums();
     for (int pack = first; pack < last; ++pack)
       if ((pack + 1) * lanes > s.columns)
         space_pack<true, Loaded, Beta, Unsteady>(s, row, at, place(pack), f(pack), own);
       else
         space_pack<false, Loaded, Beta, Unsteady>(s, row, at, place(pack), f(pack), own);
-    add_space_sums<Loaded>(sums, s.rows[r].mass, own);
+    add_row_sums<Loaded>(sums, s.rows[r].mass, own);
     for (int pack = first - left; pack < last + right; pack += last - first + left)
       if (pack < first || pack >= last)
         space_pack<false, Loaded, Beta, Unsteady>(s, row, at, place(pack), f(pack), others);
