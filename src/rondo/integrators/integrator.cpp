@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/integrators/integrator.hpp"
 
+#include "rondo/core/contract.hpp"
 #include "rondo/integrators/bodies/bodies_integrator.hpp"
 #include "rondo/integrators/fused/cyclic_integrator.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
@@ -16,6 +17,10 @@
 namespace rondo::dynamics {
 
 std::unique_ptr<Integrator> make_integrator(const Model& model, const State& start) {
+  RONDO_DEMAND(model.dt > 0.0 && model.threads >= 1, model.dt, model.threads);
+  RONDO_DEMAND(start.u.size() == model.n_nodes() && start.v_next.size() == model.n_nodes() &&
+                   start.u.components() == model.components(),
+               start.u.size(), start.v_next.size(), start.u.components(), model.n_nodes());
   switch (step_of(model)) {
     case StepKind::cyclic:
       return std::make_unique<CyclicIntegrator>(model, start, kernel_table());

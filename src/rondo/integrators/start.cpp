@@ -58,6 +58,8 @@ void find_own_start_forces(const Model& model, State& state) {
 void find_start_forces(const Model& model, State& state) {
   update_poses(model, state.u, state.poses);
   if (model.internal_force) return find_own_start_forces(model, state);
+  RONDO_DEMAND(model.sector || model.stiffness.row_start.size() == model.n_nodes() + 1,
+               model.stiffness.row_start.size(), model.n_nodes());
   std::vector<Vec2> elastic(model.n_nodes()), product(model.n_nodes());
   elastic_displacements(model, state.u, state.poses, elastic);
   apply_stiffness(model, elastic, product);
@@ -127,6 +129,11 @@ State start(const Model& model, Field u0, Field v0, const Field& half) {
   RONDO_DEMAND(u0.components() == c && v0.components() == c, u0.components(), v0.components());
   RONDO_DEMAND(half.empty() || (half.size() == n && half.components() == c), half.size());
   RONDO_DEMAND(model.dt > 0.0, model.dt);
+  RONDO_DEMAND(model.mass.size() == n, model.mass.size(), n);
+  RONDO_ASSERT(has_massless_contact(model) ||
+                   std::ranges::all_of(model.free, [&](int k) { return model.mass[at(k)] > 0.0; }),
+               model.free.size());
+  RONDO_ASSERT(std::ranges::is_sorted(model.free), model.free.size());  // see clear_clamped()
   State state;
   state.u = std::move(u0);
   state.v = std::move(v0);

@@ -11,6 +11,7 @@
 
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/column.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/io/checkpoint_file.hpp"
@@ -26,6 +27,7 @@ using h5::File;
 template <class T>
 void put(File& file, const std::string& name, const std::vector<T>& values,
          const h5::Label& label) {
+  static_assert(h5::Element<T>::count >= 1);
   h5::Shape shape{values.size()};
   if (h5::Element<T>::count > 1) shape.push_back(h5::Element<T>::count);
   file.write(name, shape, std::span<const T>(values), label);
@@ -215,6 +217,8 @@ void get_state(const File& file, dynamics::SavedState& s) {
 }  // namespace
 
 RunIdentity identity_of(const Case& c, const Setup& setup) {
+  RONDO_DEMAND(setup.model.dt > 0.0 && setup.mesh.n_nodes() > 0, setup.model.dt,
+               setup.mesh.n_nodes());
   return {version,       build_id(), dispatch_level(), write_case(c), io::mesh_hash(setup.mesh),
           setup.model.dt};
 }

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/core/keep_larger.hpp"
 
 namespace rondo::study {
 
 void ContactStatistics::add(const dynamics::ContactReport& r) noexcept {
+  RONDO_ASSERT(r.nodes >= 0 && !(r.penetration < 0.0), r.nodes, r.penetration);
   free_velocity = std::max(free_velocity, r.free_velocity);
   const double relative = r.residual / free_velocity;
   if (r.residual != 0.0) residual = keep_larger(residual, relative);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/output/probes.hpp"
 
 namespace rondo::study {
@@ -36,6 +37,11 @@ History::History(const Case& c, const Setup& setup, const HistoryPlace& place, L
                 .rubber = fem::has_rubber(setup.materials),
                 .hati = setup.model.subdomains.has_value()},
       at_(place) {
+  RONDO_DEMAND(dt_ > 0.0 && std::isfinite(dt_) && interval_ >= 0.0, dt_, interval_);
+  RONDO_DEMAND(place.next > 0 && place.steps >= 0 && place.done >= place.steps, place.next,
+               place.steps, place.done);
+  RONDO_DEMAND(setup.probes.size() == c.output.probes.size(), setup.probes.size(),
+               c.output.probes.size());
   const bool touches = setup.model.contact || setup.model.surfaces;
   if (touches && reported == Length::undeformed)
     boundary_ = std::make_shared<const mesh::DeformedBoundary>(setup.mesh);
@@ -83,6 +89,7 @@ double History::contact_length(const dynamics::StepReport& step,
   for (const dynamics::ActiveContact& c : state->active) {
     if (c.impulse.x <= 0.0 || c.candidate == last) continue;
     last = c.candidate;
+    RONDO_ASSERT(last < setup_.mesh.tributary.size(), last, setup_.mesh.tributary.size());
     undeformed += setup_.mesh.tributary[last];
     deformed += boundary_->extent(last, state->u);
   }
@@ -100,6 +107,7 @@ void History::append_probes(const dynamics::State* state, std::vector<double>& r
 
 void History::observe(const dynamics::StepReport& step, const dynamics::State* state,
                       std::vector<double>& rows) {
+  RONDO_DEMAND(step.step > at_.done, step.step, at_.done);
   const dynamics::ContactReport& report = step.contact;
   at_.done = step.step;
   ++at_.steps;
@@ -129,6 +137,8 @@ void History::finish(const dynamics::StepReport& step, const dynamics::State* st
 
 void History::append_row(const dynamics::StepReport& step, const dynamics::State* state,
                          std::vector<double>& rows) {
+  RONDO_DEMAND(at_.steps > 0, step.step);  // the means below are over them
+  [[maybe_unused]] const std::size_t before = rows.size();
   const double span = static_cast<double>(at_.steps) * dt_;
   HistoryRecord r;
   r.time = step.frame.time;
@@ -153,6 +163,7 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
   r.material = step.material;
   append_history(features_, r, rows);
   append_probes(state, rows);
+  RONDO_ASSERT(rows.size() - before == columns().size(), rows.size() - before, columns().size());
 }
 
 }  // namespace rondo::study

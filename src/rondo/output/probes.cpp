@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/output/probes.hpp"
 
+#include <cmath>
+#include <numeric>
+
+#include "rondo/core/contract.hpp"
 #include "rondo/fem/stress.hpp"
 #include "rondo/model/corotated.hpp"
 
@@ -13,8 +17,12 @@ struct ProbeValues {
 };
 
 ProbeValues look_at(const ProbedBody& body, const ProbeSite& site, const dynamics::State& state) {
+  RONDO_ASSERT(site.cell < body.mesh.cells.size(), site.cell, body.mesh.cells.size());
   const mesh::Cell& cell = body.mesh.cells[site.cell];
   const auto n = static_cast<std::size_t>(mesh::n_corners(cell));
+  RONDO_ASSERT(
+      std::abs(1.0 - std::accumulate(site.weight.begin(), site.weight.begin() + n, 0.0)) < 1e-9,
+      site.cell);  // shape functions
   ProbeValues values;
   for (std::size_t a = 0; a < n; ++a) {
     const auto node = static_cast<std::size_t>(cell[a]);
@@ -64,6 +72,9 @@ std::vector<ColumnLabel> probe_columns(const std::vector<Probe>& probes) {
 
 void append_probes(const ProbedBody& body, std::span<const ProbeSite> sites,
                    const dynamics::State& state, std::vector<double>& row) {
+  RONDO_DEMAND(state.u.size() == body.mesh.n_nodes() && state.v.size() == body.mesh.n_nodes() &&
+                   state.poses.size() == body.model.free_bodies.size(),
+               state.u.size(), state.v.size(), body.mesh.n_nodes(), state.poses.size());
   for (const ProbeSite& site : sites) {
     const ProbeValues v = look_at(body, site, state);
     for (const Vec2 a : {v.displacement, v.velocity}) row.insert(row.end(), {a.x, a.y});

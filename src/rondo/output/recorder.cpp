@@ -8,6 +8,7 @@
 #include <fstream>
 #include <utility>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/output/snapshot_files.hpp"
 
@@ -48,6 +49,12 @@ double time_kept(const std::filesystem::path& directory, const Checkpoint* from)
   return row == 0 ? 0.0 : std::strtod(text.c_str() + row, nullptr);
 }
 
+[[maybe_unused]] bool times_increase(std::span<const double> rows, std::size_t n_columns) {
+  for (std::size_t i = n_columns; i < rows.size(); i += n_columns)
+    if (!(rows[i] > rows[i - n_columns])) return false;
+  return true;
+}
+
 }  // namespace
 
 std::size_t queue_length(std::size_t n_snapshots, std::size_t bytes) noexcept {
@@ -70,6 +77,7 @@ FileRecorder::FileRecorder(std::filesystem::path directory, const RecordPlan& pl
       history_csv_(history_file(directory_, plan.columns, from)),
       slots_(make_slots(plan)),
       writer_(slots_.size(), [this](std::size_t slot) { write(slots_[slot]); }) {
+  RONDO_DEMAND(!from || (snapshots_ && history_csv_), n_columns_);  // only such runs are saved
   rows_.reserve(numbers_at_once_);
 }
 
@@ -84,6 +92,7 @@ FileRecorder::~FileRecorder() {
 /// uses only a few of them.
 std::vector<FileRecorder::Slot> FileRecorder::make_slots(const RecordPlan& plan) const {
   const io::ResultsLayout& layout = plan.results;
+  RONDO_DEMAND(layout.n_snapshots == 0 || layout.mesh, layout.n_snapshots);
   const std::size_t nodes = layout.n_snapshots == 0 ? 0 : layout.mesh->n_nodes();
   const std::size_t contacts =
       layout.n_snapshots == 0 || !layout.contact ? 0 : 2 * layout.mesh->boundary.size();
@@ -100,6 +109,8 @@ std::vector<FileRecorder::Slot> FileRecorder::make_slots(const RecordPlan& plan)
 }
 
 void FileRecorder::rows_added() {
+  RONDO_DEMAND(!closed_ && (n_columns_ > 0 ? rows_.size() % n_columns_ == 0 : rows_.empty()),
+               closed_, rows_.size(), n_columns_);
   if (rows_.size() < numbers_at_once_) return;
   take_slot();
   hand_over();
@@ -112,16 +123,23 @@ void Recorder::add_row(std::span<const double> row) {
 }
 
 Snapshot& FileRecorder::next_snapshot() {
+  RONDO_DEMAND(snapshots_ && !closed_, closed_);
   Slot& slot = take_slot();
   slot.has_snapshot = true;
   return slot.snapshot;
 }
 
 void FileRecorder::add_snapshot() {
+  RONDO_DEMAND(slots_[slot_].has_snapshot, slot_);  // by next_snapshot()
   hand_over();
 }
 
 void FileRecorder::save(Checkpoint checkpoint) {
+  RONDO_DEMAND(snapshots_ && history_csv_ && !closed_, closed_);
+  RONDO_DEMAND(checkpoint.state.step >= saved_step_, checkpoint.state.step, saved_step_.load());
+  const dynamics::SavedState& state = checkpoint.state;
+  RONDO_DEMAND(state.u.size() == state.v.size() && state.poses.size() == state.energy.size(),
+               state.u.size(), state.v.size(), state.poses.size(), state.energy.size());
   saving_ = true;
   take_slot().checkpoint = std::move(checkpoint);
   hand_over();
@@ -154,6 +172,8 @@ void FileRecorder::hand_over() {
 
 void FileRecorder::write(Slot& slot) {
   if (!slot.rows.empty()) {
+    RONDO_DEMAND(history_csv_ && slot.rows.size() >= n_columns_, slot.rows.size(), n_columns_);
+    RONDO_ASSERT(times_increase(slot.rows, n_columns_), kept_until_, slot.rows.front());
     history_csv_->rows(slot.rows);
     kept_until_ = slot.rows[slot.rows.size() - n_columns_];
   }
@@ -211,6 +231,7 @@ OutputCost FileRecorder::cost() const {
 }
 
 std::size_t FileRecorder::written() const {
+  RONDO_DEMAND(closed_, n_columns_);
   return snapshots_ ? snapshots_->written() : 0;
 }
 

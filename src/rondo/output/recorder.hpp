@@ -113,7 +113,7 @@ class FileRecorder : public Recorder {
   [[nodiscard]] OutputCost cost() const;
   /// The contents of the files. @pre closed, or called by the writing thread
   [[nodiscard]] KeptFiles files() const;
-  /// Number of snapshots in the files. @pre closed.
+  /// Number of snapshots in the files. @pre closed
   [[nodiscard]] std::size_t written() const;
   /// Time in the last row of history.csv; 0: no rows. @pre closed.
   [[nodiscard]] double last_time() const noexcept { return kept_until_; }

@@ -13,6 +13,7 @@
 
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_source.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/integrators/massless/ring_contact.hpp"
 #include "rondo/io/directory.hpp"
@@ -261,6 +262,8 @@ Checkpoint read_checkpoint_of(const std::filesystem::path& directory, const RunI
 
 std::optional<Checkpoint> find_checkpoint(const RunIdentity& now, const Case& c, const Setup& setup,
                                           const std::filesystem::path& directory) {
+  RONDO_DEMAND(setup.n_steps > 0 && setup.model.dt > 0.0 && now.step == setup.model.dt,
+               setup.n_steps, setup.model.dt, now.step);
   std::error_code error;
   const bool there = std::filesystem::exists(directory / checkpoint_name, error);
   if (!there) {
@@ -270,6 +273,7 @@ std::optional<Checkpoint> find_checkpoint(const RunIdentity& now, const Case& c,
   Checkpoint k = read_checkpoint_of(directory, now, c, setup);
   demand_sound(k, c, setup, directory);
   k.is_at_end = k.state.step >= setup.n_steps;
+  RONDO_DEMAND(k.state.step <= setup.n_steps, k.state.step, setup.n_steps);  // demand_same_run()
   if (k.n_steps != setup.n_steps)
     k.schedule = with_end(std::move(k.schedule), c.output, setup.model.dt, setup.n_steps);
   return k;

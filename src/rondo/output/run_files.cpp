@@ -14,6 +14,7 @@
 
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/build_record.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
@@ -169,6 +170,7 @@ Case kept_case(const Case& c) {
 
 void write_contact_problem(const std::filesystem::path& directory, int number,
                            const contact::ProblemFile& problem) {
+  RONDO_DEMAND(number >= 0, number);
   const std::filesystem::path folder = directory / "contact-problems";
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -200,6 +202,7 @@ std::string warning_of_another_host(const std::filesystem::path& directory) {
 }
 
 void begin_files(const Case& c, const RunOptions& options, const Json& json) {
+  RONDO_DEMAND(!options.directory.empty() && json.contains("status"), options.directory.string());
   copy_mesh(c, options.directory);
   write_case_file(c, options);
   io::write_json(options.directory / "run.json", json);
@@ -217,6 +220,7 @@ void note_failure(const RunOptions& options, Json json, const std::exception& er
 
 void add_status(Json& json, RunStatus status, const std::string& message) {
   static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};
+  static_assert(static_cast<std::size_t>(RunStatus::failed) + 1 == names.size());
   add_members(status_members, {names[static_cast<std::size_t>(status)], message}, json);
 }
 

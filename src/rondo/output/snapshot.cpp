@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::study {
 namespace {
 
@@ -10,6 +12,7 @@ namespace {
 void take_contacts(const dynamics::Model& model, const dynamics::State& state,
                    std::vector<ContactForce>& contacts) {
   const GroundFrame ground(model.motion.camber);
+  RONDO_DEMAND(state.active.empty() || has_candidates(model), state.active.size());
   contacts.clear();
   Vec2 normal;
   for (const dynamics::ActiveContact& c : state.active) {
@@ -27,6 +30,10 @@ void take_contacts(const dynamics::Model& model, const dynamics::State& state,
 }  // namespace
 
 Snapshot& fill_snapshot(const Setup& setup, const dynamics::State& state, Snapshot& s) {
+  RONDO_DEMAND(state.u.size() == setup.model.n_nodes() && state.v.size() == setup.model.n_nodes() &&
+                   state.u.components() == setup.model.components(),
+               state.u.size(), state.v.size(), state.u.components(), setup.model.n_nodes());
+  RONDO_DEMAND(state.step >= 0 && setup.model.dt > 0.0, state.step, setup.model.dt);
   s.time = state.frame.time;
   const double behind = setup.model.subdomains ? 0.0 : 0.5 * setup.model.dt;
   s.time_velocity = state.step == 0 ? 0.0 : state.frame.time - behind;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/model/corotated.hpp"
 #include "rondo/output/columns.hpp"
@@ -36,8 +37,11 @@ SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const Recor
       results_(directory, plan.results,
                from ? std::optional(from->files.snapshots.count) : std::nullopt),
       contact_csv_(contact_file(directory, plan, from)) {
+  RONDO_DEMAND(!plan.results.stress || !plan.materials.empty(), plan.materials.size());
   if (plan.results.stress && !mesh_.is_solid()) stress_.emplace(mesh_, plan.materials);
   if (plan.results.stress && mesh_.is_solid()) solid_stress_.emplace(mesh_, plan.materials);
+  RONDO_DEMAND(!contact_ || mesh_.tributary.size() == mesh_.boundary.size(), mesh_.tributary.size(),
+               mesh_.boundary.size());
   in_ground_ = GroundFrame(plan.results.camber);
   const std::size_t nb = contact_ ? mesh_.boundary.size() : 0;
   if (model_) elastic_.resize(mesh_.n_nodes());
@@ -58,6 +62,7 @@ void SnapshotFiles::collect_contact(const Snapshot& snapshot) {
   std::ranges::fill(force_, Vec3{});
   std::ranges::fill(force_fixed_, Vec3{});
   for (const ContactForce& c : snapshot.contacts) {
+    RONDO_ASSERT(c.candidate < force_.size(), c.candidate, force_.size());
     force_[c.candidate] += c.force;
     force_fixed_[c.candidate] += c.force_fixed;
     if (c.on_ground) on_ground_[c.candidate] = 1;
@@ -82,6 +87,7 @@ void SnapshotFiles::write_contact_rows(const Snapshot& snapshot) {
   rows_.clear();
   for (std::size_t k = 0; k < force_.size(); ++k) {
     if (force_[k].x <= 0.0) continue;
+    RONDO_ASSERT(!(extent_[k] <= 0.0), k, extent_[k]);  // of the nodes in snapshot.contacts
     ContactRecord r;
     r.time = snapshot.time;
     r.node = mesh_.boundary[k];
@@ -95,17 +101,22 @@ void SnapshotFiles::write_contact_rows(const Snapshot& snapshot) {
     append_values(columns(), r, rows_);
     append_values(further_columns_, r, rows_);
   }
+  RONDO_DEMAND(rows_.size() % (columns().size() + further_columns_.size()) == 0, rows_.size());
   contact_csv_.rows(rows_);
 }
 
 /// Displacements that cause stress: for free bodies in the frame of their mean rotation.
 std::span<const Vec2> SnapshotFiles::elastic(const Snapshot& snapshot) {
   if (elastic_.empty()) return snapshot.u;
+  RONDO_DEMAND(
+      snapshot.poses.size() == model_->free_bodies.size() && snapshot.u.size() == elastic_.size(),
+      snapshot.poses.size(), snapshot.u.size(), elastic_.size());
   dynamics::elastic_displacements(*model_, snapshot.u, snapshot.poses, elastic_);
   return elastic_;
 }
 
 void SnapshotFiles::write(const Snapshot& snapshot) {
+  RONDO_DEMAND(snapshot.u.size() == mesh_.n_nodes(), snapshot.u.size(), mesh_.n_nodes());
   io::SnapshotFields fields;
   if (contact_) {
     collect_contact(snapshot);

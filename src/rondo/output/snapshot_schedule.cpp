@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::study {
 namespace {
 
@@ -17,6 +19,7 @@ void add(SnapshotSchedule& schedule, double time, double dt, long long n_steps) 
 }  // namespace
 
 SnapshotSchedule snapshot_schedule(const Output& output, double dt, long long n_steps) {
+  RONDO_DEMAND(dt > 0.0 && std::isfinite(dt) && n_steps >= 0, dt, n_steps);
   SnapshotSchedule schedule;
   const int count = output.snapshots;
   const double from = output.snapshots_from, end = static_cast<double>(n_steps) * dt;
@@ -30,6 +33,7 @@ SnapshotSchedule snapshot_schedule(const Output& output, double dt, long long n_
 
 SnapshotSchedule with_end(SnapshotSchedule schedule, const Output& output, double dt,
                           long long n_steps) {
+  RONDO_DEMAND(dt > 0.0 && n_steps >= 0, dt, n_steps);
   std::vector<long long>& steps = schedule.steps;
   if (steps.empty()) return schedule;
   std::erase_if(steps, [&](long long step) { return step > n_steps; });
@@ -41,6 +45,7 @@ SnapshotSchedule with_end(SnapshotSchedule schedule, const Output& output, doubl
       add(schedule, from + j * schedule.interval, dt, n_steps);
   }
   add(schedule, end, dt, n_steps);
+  RONDO_DEMAND(steps.back() == n_steps, steps.back(), n_steps);
   return schedule;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/output/writer_thread.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <system_error>
 #include <utility>
@@ -44,6 +45,8 @@ void WriterThread::hand_over(std::size_t slot) {
   {
     const std::lock_guard lock(mutex_);
     RONDO_DEMAND(n_ready_ < ready_.size() && !closing_, n_ready_, closing_);
+    RONDO_DEMAND(slot < ready_.size(), slot, ready_.size());
+    RONDO_ASSERT(std::ranges::find(free_, slot) == free_.end(), slot);  // it was taken
     ready_[(first_ready_ + n_ready_) % ready_.size()] = slot;
     ++n_ready_;
   }

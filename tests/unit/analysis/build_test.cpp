@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
 #include "rondo/model/steps/step_table.hpp"
@@ -199,6 +200,14 @@ TEST(Build, SofteningIsCheckedWhereOneFactorIsSmall) {
   EXPECT_TRUE(softening_is_checked(10000000, 20000));
   EXPECT_FALSE(softening_is_checked(10000000, 20001));
   EXPECT_TRUE(softening_is_checked(500000, 100000));
+}
+
+TEST(Build, FieldsOfTheStartComeAfterTheStep) {
+  const Case c = spinning(2, 24, 10.0);
+  auto s = build(c, 1);
+  set_initial_fields(c, s);
+  s.model.dt = 0.0;
+  EXPECT_DEATH(set_initial_fields(c, s), "model.dt > 0.0");
 }
 
 }  // namespace rondo::study::build_test

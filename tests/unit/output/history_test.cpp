@@ -155,4 +155,12 @@ TEST(History, TheStateOfRowsWithProbesIsAskedForInTurn) {
   EXPECT_FALSE(std::any_of(rows.begin(), rows.end(), [](double x) { return std::isnan(x); }));
 }
 
+TEST(History, TakesEveryStepOnce) {
+  const Built b = built({"output.history_interval=0"});
+  History history(b.c, b.setup);
+  std::vector<double> rows;
+  history.observe(step_of(b, 2, 1.0), nullptr, rows);
+  EXPECT_DEATH(history.observe(step_of(b, 2, 1.0), nullptr, rows), "step.step > at_.done");
+}
+
 }  // namespace history_test

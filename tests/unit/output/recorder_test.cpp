@@ -169,4 +169,19 @@ TEST_F(RecorderTest, AFullDiskIsThrownAtTheLoopAndTheRestIsClosed) {
   EXPECT_TRUE(text.ends_with("\n")) << "complete ones";
 }
 
+TEST_F(RecorderTest, TakesRowsOfAsManyNumbersAsColumns) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto add_half_a_row = [&] {
+    FileRecorder recorder(folder_, plan());
+    recorder.add_row(std::vector<double>{1.0});
+  };
+  EXPECT_DEATH(add_half_a_row(), "rows_.size\\(\\) % n_columns_ == 0.*values: false 1 2");
+}
+
+TEST_F(RecorderTest, TakesNoSnapshotThatWasNotBegun) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  const auto add_none = [&] { FileRecorder(folder_, plan()).add_snapshot(); };
+  EXPECT_DEATH(add_none(), "has_snapshot");
+}
+
 }  // namespace recorder_test

@@ -113,6 +113,7 @@ std::vector<Fault> at_their_keys(const Case& c, const std::vector<Fault>& faults
 }  // namespace
 
 mesh::Mesh read_mesh_file(const Case& c, std::vector<std::string>* warnings) {
+  RONDO_DEMAND(mesh_file_of(c) != nullptr, c.file.string());
   const MeshCase& m = *mesh_file_of(c);
   std::error_code error;
   if (!std::filesystem::exists(m.file, error))
@@ -198,6 +199,8 @@ mesh::Mesh build_mesh(const Case& c, std::vector<std::string>* warnings) {
   if (is_solid(c)) {
     mesh::Mesh wheel = build_wheel(c, warnings);
     const std::vector<double> size = element_sizes(wheel);
+    RONDO_DEMAND(!size.empty() && wheel.hexahedra.size() > 0 && wheel.n_sectors > 0, size.size(),
+                 wheel.hexahedra.size(), wheel.n_sectors);
     refuse_sizes_out_of_range(c, size);
     if (is_generated(c)) refuse_flat_elements(c, size);
     return wheel;
@@ -206,6 +209,9 @@ mesh::Mesh build_mesh(const Case& c, std::vector<std::string>* warnings) {
     demand_memory(c, mesh::n_disk_nodes(c.disk), mesh_memory(mesh::n_disk_nodes(c.disk)));
   mesh::Mesh mesh = c.mesh ? read_mesh_file(c, warnings) : mesh::make_disk(c.disk);
   const std::vector<double> size = element_sizes(mesh);
+  RONDO_DEMAND(
+      !size.empty() && !mesh.cells.empty() && mesh.tributary.size() == mesh.boundary.size(),
+      size.size(), mesh.cells.size(), mesh.tributary.size(), mesh.boundary.size());
   if (!c.mesh) refuse_flat_elements(c, size);
   refuse_sizes_out_of_range(c, size);
   if (!c.mesh) set_disk_regions(c, mesh);
@@ -218,6 +224,8 @@ std::vector<fem::Material> materials_of(const Case& c, const mesh::Mesh& mesh) {
   std::vector<fem::Material> materials(std::max<std::size_t>(1, mesh.region_names.size()),
                                        c.material);
   const auto keys = surface_keys(c);
+  RONDO_DEMAND(!is_generated(c) || c.regions.size() < materials.size(), c.regions.size(),
+               materials.size());  // set_disk_regions() has named them
   for (std::size_t k = 0; k < c.regions.size(); ++k)
     materials[!is_generated(c) ? at(region_of(c, mesh, keys[k])) : k + 1] = c.regions[k].material;
   return materials;
@@ -254,6 +262,8 @@ void add_hexahedron(const mesh::Mesh& mesh, const mesh::Hexahedron& h, std::vect
 }  // namespace
 
 std::vector<double> element_sizes(const mesh::Mesh& mesh) {
+  RONDO_DEMAND(mesh.hexahedra.empty() || mesh.axial.size() == mesh.n_nodes(), mesh.axial.size(),
+               mesh.n_nodes());
   std::vector<double> size(mesh.n_nodes(), std::numeric_limits<double>::infinity());
   for (const mesh::Cell& cell : mesh.cells) {
     const int n = mesh::n_corners(cell);
@@ -271,6 +281,8 @@ std::vector<double> element_sizes(const mesh::Mesh& mesh) {
 
 void place_free_bodies(const Case& c, mesh::Mesh& mesh, dynamics::Model& model) {
   if (model.free_bodies.empty()) return refuse_for_held_bodies(c);
+  RONDO_DEMAND(model.n_nodes() == mesh.n_nodes() && model.free_body.size() == mesh.n_nodes(),
+               model.n_nodes(), model.free_body.size(), mesh.n_nodes());
   const Complex turn = rotation(-c.initial.turn);
   const Vec2 position = c.initial.position;
   if (c.initial.turn == 0.0 && position == Vec2{}) return;
@@ -288,6 +300,9 @@ std::vector<RigidMotion> motions_of(const Case& c, const mesh::Mesh& mesh,
   std::vector<RigidMotion> motions(model.free_bodies.size(),
                                    {initial.velocity, initial.angular_velocity});
   std::vector<int> given(motions.size(), -1);  // place in initial.regions
+  RONDO_DEMAND(initial.regions.empty() || (mesh.region.size() == mesh.cells.size() &&
+                                           model.free_body.size() == mesh.n_nodes()),
+               mesh.region.size(), mesh.cells.size(), model.free_body.size(), mesh.n_nodes());
   const auto keys = surface_keys(c);
   for (std::size_t k = 0; k < initial.regions.size(); ++k) {
     const NameKey& key = keys[(c.mesh ? c.regions.size() : 0) + k];
@@ -330,6 +345,7 @@ const std::vector<mesh::Edge>& curve_of(const Case& c, const mesh::Mesh& mesh,
 
 std::vector<ProbeSite> find_probes(const Case& c, const mesh::Mesh& mesh) {
   if (c.output.probes.empty()) return {};
+  RONDO_DEMAND(!mesh.is_solid() && !mesh.cells.empty(), mesh.n_nodes(), mesh.cells.size());
   const mesh::CellGrid grid(mesh.coordinates, mesh.cells);
   std::vector<ProbeSite> sites;
   for (std::size_t k = 0; k < c.output.probes.size(); ++k) sites.push_back(find_site(c, grid, k));

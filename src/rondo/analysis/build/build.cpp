@@ -22,6 +22,7 @@
 #include "rondo/analysis/elements/subdomains.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/features/case_features.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/limits/processors.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/mesh/edges.hpp"
@@ -33,6 +34,8 @@ namespace {
 
 /// Adds what the candidates may touch: the ground, and bodies.
 void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
+  RONDO_DEMAND(mesh.tributary.size() == mesh.boundary.size() && model.n_nodes() == mesh.n_nodes(),
+               mesh.tributary.size(), mesh.boundary.size(), model.n_nodes(), mesh.n_nodes());
   if (c.ground)
     model.contact.emplace(dynamics::ContactModel{
         contact::Ground(c.ground->shape, mesh::longest_edge(mesh.coordinates, mesh.contact_edges)),
@@ -87,6 +90,7 @@ void make_model(const Case& c, Setup& s) {
   model.reference = s.mesh.coordinates;
   model.mass = fem::lumped_mass(s.mesh, s.materials);
   model.free = fem::free_nodes(s.mesh);
+  RONDO_DEMAND(model.mass.size() == model.n_nodes(), model.mass.size(), model.n_nodes());
   find_bodies(c, s);
   add_contacts(c, s.mesh, model);
   add_pressures(c, s.mesh, model);
@@ -105,6 +109,7 @@ void make_model(const Case& c, Setup& s) {
 void set_motion_and_friction(const Case& c, dynamics::Model& model) {
   model.mass_damping = c.damping.mass;
   model.motion = c.motion;
+  RONDO_DEMAND(c.ground.has_value() == model.contact.has_value(), c.ground.has_value());
   set_rim_loads(c, model);
   model.coupled = {c.contact_iterations, c.dump_contacts};
   if (model.contact) model.contact->law = law_of(*c.ground);
@@ -118,6 +123,8 @@ void add_stress_stiffening(const Case& c, Setup& s) {
   if (spin == 0.0)
     s.warnings.emplace_back(
         "material.stress_stiffening has no effect: the initial angular velocity is 0");
+  RONDO_DEMAND(by_harmonics(m) || m.stiffness.row_start.size() == m.n_nodes() + 1,
+               m.stiffness.row_start.size(), m.n_nodes());
   auto found =
       by_harmonics(m)
           ? statics::centrifugal_prestress(*m.sector, m.mass, m.reference, spin)
@@ -128,6 +135,7 @@ void add_stress_stiffening(const Case& c, Setup& s) {
                      "to round-off",
                      "\"none\", or a material and a mesh in SI units");
   s.prestress = to_vector(found.u.plane());
+  RONDO_DEMAND(s.prestress.size() == m.n_nodes(), s.prestress.size(), m.n_nodes());
   if (m.sector) m.sector = fem::assemble_sector(s.mesh, s.materials, s.prestress);
   if (!m.stiffness.row_start.empty())
     m.stiffness = fem::assemble_stiffness(s.mesh, s.materials, s.prestress);
@@ -147,6 +155,7 @@ void choose_threads(Setup& s, int asked) {
     asked = small ? 1 : allowed_processors();
   }
   s.model.threads = std::min(asked, most);
+  RONDO_DEMAND(s.model.threads >= 1, asked, most);
 }
 
 namespace {
@@ -183,6 +192,8 @@ dynamics::CriticalStep body_step(const Setup& s, dynamics::LaggedDamping damping
   if (by_harmonics(m) || (m.rim && m.sector))
     return dynamics::critical_step(*m.sector, m.mass, damping,
                                    fem::sector_eigenvalue_bound(s.mesh, s.materials, s.prestress));
+  RONDO_DEMAND(m.stiffness.row_start.size() == m.n_nodes() + 1 && m.threads >= 1,
+               m.stiffness.row_start.size(), m.n_nodes(), m.threads);
   const double bound = fem::element_eigenvalue_bound(s.mesh, s.materials, s.prestress);
   return dynamics::critical_step(m.stiffness, m.mass, nodes_with_mass(m), damping,
                                  bound / least_mass_share(m), m.threads);
@@ -191,6 +202,7 @@ dynamics::CriticalStep body_step(const Setup& s, dynamics::LaggedDamping damping
 /// The critical step as if contact nodes had their mass.
 double plain_step(const Setup& s, dynamics::LaggedDamping damping) {
   const dynamics::Model& m = s.model;
+  RONDO_DEMAND(m.lumped_mass.size() == m.n_nodes(), m.lumped_mass.size(), m.n_nodes());
   return dynamics::critical_step(m.stiffness, m.lumped_mass, m.free, damping,
                                  fem::element_eigenvalue_bound(s.mesh, s.materials, s.prestress),
                                  m.threads)
@@ -243,6 +255,7 @@ long long count_steps(const Case& c, double dt) {
   if (steps > 1e12)
     throw case_error(c, "time.end", fmt::format("the run would take {:.3g} steps", steps),
                      "at most 1e+12 steps");
+  RONDO_DEMAND(dt > 0.0 && std::isfinite(dt), dt);
   const double nearest = std::round(steps);  // 0.1 / 1e-5 is 10000, whatever its last bit says
   return static_cast<long long>(std::abs(steps - nearest) < 1e-9 * nearest ? nearest
                                                                            : std::ceil(steps));
@@ -262,6 +275,8 @@ bool by_harmonics(const dynamics::Model& model) {
 }
 
 std::vector<int> held_nodes(const dynamics::Model& model) {
+  RONDO_DEMAND(model.free_body.empty() || model.free_body.size() == model.n_nodes(),
+               model.free_body.size(), model.n_nodes());
   std::vector<int> held = model.free;
   std::erase_if(held,
                 [&](int node) { return in_fixed_frame(model, static_cast<std::size_t>(node)); });
@@ -310,10 +325,19 @@ void demand_shared_body(const Case& c, int threads, SharedBody& shared) {
 
 /// The part of the setup that depends on the rest of the case.
 void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
+  RONDO_DEMAND(s.model.n_nodes() > 0 && s.model.n_nodes() == s.mesh.n_nodes() &&
+                   s.probes.size() == (s.model.solid ? 0 : c.output.probes.size()),
+               s.model.n_nodes(), s.mesh.n_nodes(), s.probes.size());  // make_body() has been
   set_motion_and_friction(c, s.model);
   const int ratio = s.model.subdomains ? s.model.subdomains->ratio : 1;
   s.model.dt = ratio * choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);
+  RONDO_ASSERT(std::ranges::all_of(s.model.free,
+                                   [&](int node) {
+                                     const auto k = static_cast<std::size_t>(node);
+                                     return lumped_mass_of(s.model)[k] > 0.0;
+                                   }),
+               s.model.free.size());  // else choose_step() had refused the numbers
   check_branches(c, s);
   set_initial_fields(c, s, shared);
   refuse_held_in_ground(c, s);

@@ -10,6 +10,7 @@
 #include "rondo/analysis/build/overlap.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/steady_start.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
@@ -30,6 +31,8 @@ statics::StationarySpin find_stationary(const Setup& s, double spin) {
 void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
   const double spin = -c.motion.angular_velocity.at(0.0);
   if (shared && !shared->stationary.empty() && shared->spin == spin) {
+    RONDO_DEMAND(shared->stationary.size() == s.model.n_nodes(), shared->stationary.size(),
+                 s.model.n_nodes());
     s.displacement = shared->stationary;
     return;
   }
@@ -40,6 +43,9 @@ void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
                      "exceeds the stiffness",
                      "a lower rotation speed, or a stiffer material");
   s.displacement = std::move(stationary.u);
+  RONDO_DEMAND(s.displacement.size() == s.model.n_nodes() &&
+                   s.displacement.components() == s.model.components(),
+               s.displacement.size(), s.displacement.components(), s.model.n_nodes());
   if (!shared) return;
   shared->spin = spin;
   shared->stationary = s.displacement;
@@ -53,6 +59,7 @@ struct Depth {
   bool free = false;     ///< the worst node is of a free body
 
   void add(double depth, double size, bool is_free) {
+    RONDO_ASSERT(size > 0.0, size);
     deepest = std::max(deepest, depth);
     if (depth / size <= worst) return;
     worst = depth / size;
@@ -75,6 +82,8 @@ std::vector<Vec2> start_positions(const Setup& s) {
 Depth deepest_start(const Setup& s, const std::vector<double>& size, const std::vector<Vec2>& x) {
   const dynamics::ContactModel& contact = *s.model.contact;
   Depth depth;
+  RONDO_DEMAND(size.size() == s.model.n_nodes() && x.size() == s.model.n_nodes(), size.size(),
+               x.size(), s.model.n_nodes());
   for (const int candidate : contact.nodes) {
     const std::size_t node = at(candidate);
     depth.add(-contact.ground.distance(x[node]), size[node], in_fixed_frame(s.model, node));
@@ -153,6 +162,7 @@ void move_along(Vec2 velocity, Setup& s) {
 
 void set_initial_fields(const Case& c, Setup& s, SharedBody* shared) {
   const dynamics::Model& model = s.model;
+  RONDO_DEMAND(model.dt > 0.0, model.dt);
   s.displacement = s.velocity = Field(model.n_nodes(), model.components());
   if (c.initial.state == InitialState::stationary) set_stationary(c, s, shared);
   if (c.initial.state == InitialState::steady_rolling) set_steady_rolling(c, s);
@@ -160,6 +170,10 @@ void set_initial_fields(const Case& c, Setup& s, SharedBody* shared) {
   const auto& g = c.initial.displacement_gradient;
   const std::vector<RigidMotion> motions = motions_of(c, s.mesh, model);
   const std::span<Vec2> u = s.displacement, v = s.velocity, half = s.half_velocity;
+  const std::size_t n = model.n_nodes();
+  RONDO_DEMAND(u.size() == n && v.size() == n && (half.empty() || half.size() == n) &&
+                   motions.size() == model.free_bodies.size(),
+               n, u.size(), v.size(), half.size(), motions.size());
   for (const int node : model.free) {
     const std::size_t k = at(node);
     const Vec2 x = model.reference[k];
@@ -174,6 +188,9 @@ void set_initial_fields(const Case& c, Setup& s, SharedBody* shared) {
 }
 
 void check_start(const Case& c, Setup& s) {
+  RONDO_DEMAND(s.displacement.size() == s.model.n_nodes() &&
+                   s.displacement.components() == s.model.components(),
+               s.displacement.size(), s.model.n_nodes());
   const std::vector<double> size = element_sizes(s.mesh);
   const std::vector<Vec2> x = start_positions(s);
   if (s.model.contact) {

@@ -5,10 +5,10 @@
 
 namespace rondo::study {
 
-/// Fills u_0, v_0 and, of a start in steady rolling, v_{1/2}. @pre the step is chosen. @param
-/// shared keeps a stationary state, and gives the one it has for this spin; may be null. @throws
-/// InputError: spin beyond the softening limit with a stationary start, motions that the bodies
-/// cannot have
+/// Fills u_0, v_0 and, of a start in steady rolling, v_{1/2}. @pre the step is chosen
+/// @param shared keeps a stationary state, and gives the one it has for this spin; may be null.
+/// @throws InputError: spin beyond the softening limit with a stationary start, motions that the
+/// bodies cannot have
 void set_initial_fields(const Case& c, Setup& s, SharedBody* shared = nullptr);
 
 /// @throws InputError: bodies deeper than half an element inside the ground or each other. Less

@@ -13,6 +13,7 @@
 #include "rondo/case/case.hpp"
 #include "rondo/case/features/case_features.hpp"
 #include "rondo/core/bytes.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/limits/memory_limits.hpp"
 #include "rondo/integrators/massless/ring_matrix.hpp"
 #include "rondo/output/recorder.hpp"
@@ -46,6 +47,7 @@ std::size_t stiffness_memory(std::size_t nodes, bool wide_rows) noexcept {
 }
 
 std::size_t factor_memory(std::size_t dofs, bool wide_rows) noexcept {
+  RONDO_DEMAND(dofs > 0, dofs);
   const double bytes_per_entry = wide_rows ? 120.0 : 60.0;
   const double n = static_cast<double>(dofs);
   return static_cast<std::size_t>(bytes_per_entry * n * std::log2(n));
@@ -59,6 +61,7 @@ static std::size_t ring_memory(std::size_t candidates) noexcept {
 
 std::size_t rubber_memory(const Case& c, const mesh::Mesh& mesh) {
   if (!has_rubber(c)) return 0;
+  RONDO_DEMAND(!mesh.cells.empty(), mesh.n_nodes());
   const std::vector<fem::Material> materials = materials_of(c, mesh);
   std::size_t n_rubber = 0, n_branches = 0;
   for (std::size_t e = 0; e < mesh.cells.size(); ++e) {
@@ -80,6 +83,7 @@ std::size_t rubber_memory(const Case& c, const mesh::Mesh& mesh) {
 
 /// K of one sector, and the factor of a harmonic of it for the critical step.
 static std::size_t solid_motion_memory(const Case& c, const mesh::Mesh& mesh) {
+  RONDO_DEMAND(mesh.n_sectors > 0, mesh.n_sectors);
   constexpr std::size_t numbers_of_a_node = 24;  // that a plane one has not
   const std::size_t nodes = mesh.n_nodes(), of_a_snapshot = 6 * nodes * sizeof(double);
   const auto snapshots = static_cast<std::size_t>(c.output.snapshots);
@@ -92,6 +96,7 @@ static std::size_t solid_motion_memory(const Case& c, const mesh::Mesh& mesh) {
 std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) {
   if (mesh.is_solid()) return solid_motion_memory(c, mesh);
   const std::size_t nodes = mesh.n_nodes(), of_a_snapshot = 2 * nodes * sizeof(Vec2);
+  RONDO_DEMAND(mesh.clamped.size() <= nodes, mesh.clamped.size(), nodes);
   const auto snapshots = static_cast<std::size_t>(c.output.snapshots);
   const bool harmonics = mesh.n_sectors > 0 && !c.free_rim &&
                          c.contact_mass == ContactMass::lumped &&

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "rondo/analysis/build/bodies.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/mesh/edges.hpp"
 #include "rondo/mesh/locate.hpp"
@@ -36,6 +37,7 @@ class Overlaps {
         size_(element_sizes(in.mesh)),
         touches_(in.mesh.n_nodes(), 0),
         round_off_(1e-6 * extent_of(in.mesh)) {
+    RONDO_DEMAND(in.x.size() == in.mesh.n_nodes(), in.x.size(), in.mesh.n_nodes());
     for (const int node : in.mesh.boundary) touches_[at(node)] = 1;
   }
 
@@ -54,6 +56,7 @@ class Overlaps {
 
   [[nodiscard]] std::string name_of(int body) const {
     const mesh::Mesh& m = in_.mesh;
+    RONDO_ASSERT(m.region.empty() || m.region.size() == m.cells.size(), m.region.size());
     std::vector<char> has(m.region_names.size(), 0);
     for (std::size_t e = 0; e < m.region.size(); ++e)
       if (body_of(m.cells[e][0]) == body && m.region[e] >= 0) has[at(m.region[e])] = 1;
@@ -89,6 +92,7 @@ class Overlaps {
 
   /// The first other body that holds a point, as far as a body's edges belong to it; -1: none.
   [[nodiscard]] int holder_of(Vec2 p, int body) const {
+    RONDO_ASSERT(grid_.has_value(), body);  // find() has laid it out
     for (const int e : grid_->near(p)) {
       const int other = body_of(in_.mesh.cells[at(e)][0]);
       if (other != body && grid_->within(e, p)) return other;

@@ -13,6 +13,7 @@
 #include "rondo/analysis/build/plausible/plausible.hpp"
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/rubber.hpp"
+#include "rondo/core/contract.hpp"
 
 namespace rondo::study {
 namespace {
@@ -155,9 +156,10 @@ double deflection_by_motion(const Case& c, const Setup& s, const Wall& wall) {
   return deflection;
 }
 
-/// The softest of what may touch. @pre there are candidates
+/// The softest of what may touch.
 const fem::Material& touching_material(const mesh::Mesh& mesh,
                                        const std::vector<fem::Material>& materials) {
+  RONDO_DEMAND(!mesh.boundary.empty() && !materials.empty(), materials.size());
   std::vector<char> touches(mesh.n_nodes(), 0);
   for (const int node : mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
   double least = std::numeric_limits<double>::infinity();
@@ -175,6 +177,7 @@ const fem::Material& touching_material(const mesh::Mesh& mesh,
     add(e,
         std::span(mesh.cells[e]).first(static_cast<std::size_t>(mesh::n_corners(mesh.cells[e]))));
   for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e) add(e, mesh.hexahedra[e]);
+  RONDO_ASSERT(std::isfinite(least), least, mesh.boundary.size());  // candidates are in cells
   return fem::material_of(mesh, materials, softest);
 }
 
@@ -221,6 +224,7 @@ std::optional<Wall> wall_of(const mesh::Mesh& mesh) {
 }
 
 void tell_physical_figures(const Case& c, Setup& s) {
+  RONDO_DEMAND(s.velocity.size() == s.model.n_nodes(), s.velocity.size(), s.model.n_nodes());
   const Tell to{s.figures, s.warnings};
   warn_of_senses(c, s.mesh, s.materials, s.warnings);
   tell_stiffness(s.materials, to);
@@ -259,6 +263,7 @@ void tell_physical_figures(const Case& c, const mesh::Mesh& mesh,
   tell_speed(finds_speed ? rim : std::max(rim, std::abs(c.motion.speed.at(0.0))), materials, to);
   if (!wall) return;
   if (!c.analysis.load) {
+    RONDO_DEMAND(c.ground.has_value(), c.file.string());
     const double height = c.motion.height.at(0.0) - c.ground->shape.profile.front().y;
     tell_deflection("motion.height", wall->radius - height, *wall,
                     touching_material(mesh, materials), to);

@@ -7,6 +7,7 @@
 
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/core/column.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::study {
@@ -23,6 +24,7 @@ struct Bonded {
 };
 
 Bonded bonded_nodes(const mesh::Mesh& mesh, const std::vector<double>& mass) {
+  RONDO_DEMAND(mass.size() == mesh.n_nodes(), mass.size(), mesh.n_nodes());
   Bonded b;
   for (const int node : mesh.clamped) {
     const Vec2 x = mesh.coordinates[at(node)];
@@ -96,6 +98,7 @@ void add_rim(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
   if (!c.rim) return;
   const Bonded bonded = bonded_nodes(mesh, model.mass);
   refuse_unbalanced(c, bonded);
+  RONDO_DEMAND(model.free_bodies.empty(), model.free_bodies.size());
   model.rim = c.rim;
   model.rim->mass += bonded.mass;
   model.rim->inertia += bonded.inertia;
@@ -103,6 +106,7 @@ void add_rim(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model) {
 
 void set_rim_loads(const Case& c, dynamics::Model& model) {
   if (!c.rim) return;
+  RONDO_DEMAND(model.rim.has_value(), c.rim->mass);  // by add_rim()
   const double mass = model.rim->mass, inertia = model.rim->inertia;
   model.rim = c.rim;
   model.rim->mass = mass;
@@ -113,6 +117,8 @@ namespace {
 
 dynamics::RimFrequencies frequencies_of(const dynamics::Model& model,
                                         const dynamics::StiffnessProduct& product) {
+  RONDO_DEMAND(model.rim && model.mass.size() == model.n_nodes(), model.mass.size(),
+               model.n_nodes());
   const RimBody& rim = *model.rim;
   dynamics::RimDofs dofs;
   if (rim.free_x) dofs.inertia[0] = rim.mass;
@@ -176,6 +182,8 @@ HubWatch::Seen HubWatch::look(Vec2 center, double time) {
 }
 
 void tell_rim(const Case& c, Setup& s) {
+  RONDO_DEMAND(c.rim && s.model.rim && s.model.rim->mass >= c.rim->mass, c.rim.has_value(),
+               s.model.rim.has_value());
   const RimBody& rim = *s.model.rim;
   const bool solid = s.model.solid.has_value();
   s.figures.emplace_back("rim", free_text(rim));

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "rondo/case/case_keys.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/model/hyperelastic.hpp"
 
 namespace rondo::study {
@@ -33,6 +34,9 @@ std::vector<Described> rubbers_of(const Case& c) {
         c.mesh ? region.surface : fmt::format("layers {}", fmt::join(region.layers, ", "));
     found.push_back({item_of("material.region", k), name, region.law, region.material});
   }
+  RONDO_ASSERT(
+      std::ranges::all_of(found, [](const Described& d) { return d.material.rubber.has_value(); }),
+      found.size());
   return found;
 }
 
@@ -85,7 +89,10 @@ std::string time_key(const Described& d, std::size_t branch) {
 }
 
 std::string_view model_name(const MaterialLaw& law) {
-  return find_case_key("material.model")->allowed.choices[static_cast<std::size_t>(law.model)];
+  const auto& names = find_case_key("material.model")->allowed.choices;
+  const auto which = static_cast<std::size_t>(law.model);
+  RONDO_DEMAND(which < names.size(), which, names.size());  // both lists in one order
+  return names[which];
 }
 
 Told law_line(const Described& d) {
@@ -109,6 +116,9 @@ Told branch_line(const Described& d, const fem::ViscousBranch& branch, double st
 
 void add_rubber(const Case& c, Setup& s) {
   if (!has_rubber(c)) return;
+  RONDO_DEMAND(s.model.mass.size() == s.model.n_nodes() &&
+                   s.model.stiffness.row_start.size() == s.model.n_nodes() + 1,
+               s.model.mass.size(), s.model.stiffness.row_start.size(), s.model.n_nodes());
   refuse_damped_free_bodies(c, s);
   refuse_linear_free_bodies(c, s);
   s.rubber = std::make_shared<const fem::Hyperelasticity>(s.mesh, s.materials);
@@ -118,6 +128,7 @@ void add_rubber(const Case& c, Setup& s) {
 
 void check_branches(const Case& c, Setup& s) {
   const double step = explicit_step(s.model);
+  RONDO_DEMAND(step > 0.0, step);
   for (const Described& d : rubbers_of(c)) {
     if (inherits_branches(c, d)) continue;
     for (std::size_t b = 0; b < d.material.rubber->branches.size(); ++b) {

@@ -9,6 +9,7 @@
 
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/case/case_keys.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -39,6 +40,7 @@ struct Interval {
 
 /// ω₁, by halving [0, 2 spin], which holds it; the first half tells the softening limit [rad/s].
 Interval lowest_frequency(const dynamics::Model& m, double spin) {
+  RONDO_DEMAND(spin > 0.0, spin);
   constexpr int halvings = 8;
   Interval of{0.0, 2.0 * spin};
   for (int k = 0; k < halvings; ++k) {
@@ -125,6 +127,7 @@ bool is_energy_safe(const dynamics::Model& m) {
 }
 
 void warn_of_contact_step(Setup& s) {
+  RONDO_DEMAND(s.critical.step > 0.0, s.critical.step);
   const double share = explicit_step(s.model) / s.critical.step;
   const double ratio = 0.5 * s.model.stiffness_damping * s.critical.omega;
   if (!has_candidates(s.model) || share <= contact_step_share || ratio >= contact_damping_ratio ||
@@ -261,12 +264,15 @@ void warn_of_fast_contact(const Case& c, Setup& s) {
 }  // namespace
 
 void check_motion(const Case& c, const Setup& s) {
+  RONDO_DEMAND(s.model.dt > 0.0, s.model.dt);
   refuse_wide_turns(c, explicit_step(s.model));
   refuse_wide_rim_turns(c, s.model.dt);
   refuse_wide_change_of_spin(c, s);
 }
 
 void check_stability(const Case& c, Setup& s) {
+  RONDO_DEMAND(s.n_steps > 0 && s.velocity.size() == s.model.n_nodes(), s.n_steps,
+               s.velocity.size(), s.model.n_nodes());
   check_motion(c, s);
   refuse_large_turns(c, s);
   warn_of_softening(c, s);
@@ -277,6 +283,7 @@ void check_stability(const Case& c, Setup& s) {
 
 void check_places(const Case& c, const mesh::Mesh& mesh) {
   const std::vector<double> sizes = element_sizes(mesh);
+  RONDO_DEMAND(!sizes.empty(), c.file.string());
   const double shortest = *std::min_element(sizes.begin(), sizes.end());
   constexpr double resolution = 1e-4;  // of the shortest edge
   const double farthest = resolution * shortest / std::numeric_limits<double>::epsilon();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rondo/case/case_rules.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/model/pressure.hpp"
 #include "rondo/statics/steady/rolling_newton.hpp"
 #include "rondo/statics/steady/rolling_power.hpp"
@@ -30,6 +31,8 @@ int samples_of(const mesh::Disk& disk) {
 
 RollingHarmonics harmonics_of(const Case& c, const Setup& s) {
   const dynamics::Model& m = s.model;
+  RONDO_DEMAND(m.sector && m.contact && m.dt > 0.0, m.sector.has_value(), m.contact.has_value(),
+               m.dt);
   return RollingHarmonics({.stiffness = *m.sector,
                            .mass = m.mass,
                            .reference = m.reference,
@@ -65,6 +68,9 @@ void refuse(const Case& c, const statics::RollingSolution& found, double height)
 /// (n) Of all sectors while sector 0 is where it is in the reference.
 std::vector<Vec2> nodal(const Setup& s, const Eigen::MatrixXd& of_samples, double factor) {
   const fem::SectorStiffness& sector = *s.model.sector;
+  RONDO_DEMAND(of_samples.rows() == 2 * static_cast<Eigen::Index>(sector.n_local()) &&
+                   of_samples.cols() > 0 && of_samples.cols() % sector.n_sectors == 0,
+               of_samples.rows(), sector.n_local(), of_samples.cols(), sector.n_sectors);
   const Eigen::Index samples = of_samples.cols() / sector.n_sectors;
   std::vector<Vec2> field(s.model.n_nodes());
   for (std::size_t j = 0; j < static_cast<std::size_t>(sector.n_sectors); ++j)
@@ -86,6 +92,8 @@ void hold_down(double radius, Setup& s) {
              next = center + m.motion.advance(0.0, m.dt).plane();
   const Complex turned = rotation(m.motion.turn(0.0, m.dt));
   const double closed = 1e-9 * radius, depth = 1e-12 * radius;
+  RONDO_DEMAND(s.half_velocity.size() == m.n_nodes() && s.displacement.size() == m.n_nodes(),
+               s.half_velocity.size(), s.displacement.size(), m.n_nodes());
   const std::span<const Vec2> u = s.displacement;
   const std::span<Vec2> half = s.half_velocity;
   for (const int node : m.contact->nodes) {
@@ -118,6 +126,8 @@ std::vector<Vec2> sector_load(const dynamics::Model& model, const fem::SectorSti
     of_node[static_cast<std::size_t>(load.node)] +=
         model.pressures[static_cast<std::size_t>(load.load)].pressure.at(0.0) * load.force;
   std::vector<Vec2> rows;
+  RONDO_DEMAND(sector.n_local() > 0 && sector.node(sector.n_local() - 1, 0) < model.n_nodes(),
+               sector.n_local(), model.n_nodes());
   for (std::size_t a = 0; a < sector.n_local(); ++a) rows.push_back(of_node[sector.node(a, 0)]);
   return rows;
 }

@@ -9,6 +9,7 @@
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
 #include "rondo/analysis/elements/parts.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/mesh/locate.hpp"
 
@@ -24,9 +25,12 @@ StepLimit find_step_limit(const Case& c, const Setup& s) {
   };
   std::vector<double> values = fem::element_eigenvalues(s.mesh, fem::instantaneous(s.materials),
                                                         s.prestress, s.mesh.n_sectors > 0);
+  const Parts parts = parts_of(c, s);
+  RONDO_DEMAND(!values.empty() && parts.of_cell.size() == values.size() &&
+                   (s.implicit_cells.empty() || s.implicit_cells.size() == values.size()),
+               values.size(), parts.of_cell.size(), s.implicit_cells.size());
   for (std::size_t e = 0; e < s.implicit_cells.size(); ++e)
     if (s.implicit_cells[e]) values[e] = 0.0;
-  const Parts parts = parts_of(c, s);
   const auto worst = std::max_element(values.begin(), values.end());
   StepLimit limit;
   limit.cell = static_cast<std::size_t>(worst - values.begin());
@@ -49,6 +53,7 @@ StepLimit find_step_limit(const Case& c, const Setup& s) {
 }
 
 std::vector<Told> lines_of(const StepLimit& limit) {
+  RONDO_DEMAND(limit.step > 0.0, limit.step, limit.cell);
   const auto times = [&](double step) {
     return fmt::format("{:.3g} times the step, by the element bound", step / limit.step);
   };
@@ -69,6 +74,7 @@ namespace {
 Told implicit_line(const Setup& setup) {
   const auto chosen = std::ranges::count(setup.implicit_cells, 1);
   const dynamics::Model& m = setup.model;
+  RONDO_DEMAND(m.implicit || m.subdomains, setup.implicit_cells.size());
   const auto& nodes = m.implicit ? m.implicit->nodes : m.subdomains->coarse.free;
   return {"implicit elements",
           fmt::format("{} of {} ({} dofs): explicit, they would make the critical step {:.6g} s",
@@ -80,6 +86,7 @@ Told implicit_line(const Setup& setup) {
 std::vector<Told> step_lines(const Case& c, const Setup& s) {
   const auto length = [](double seconds) { return fmt::format("{:.6g} s", seconds); };
   const double step = explicit_step(s.model);
+  RONDO_DEMAND(step > 0.0 && s.critical.step > 0.0, step, s.critical.step);
   const bool bounded = std::isfinite(s.critical.step);
   std::vector<Told> lines{
       {"largest frequency", fmt::format("{:.6g} rad/s (element bound {:.6g})", s.critical.omega,

@@ -16,6 +16,7 @@ using kernels::lanes;
 constexpr std::size_t blocks_of_a_thread = 4;
 
 int threads_of(const Model& model, const BodyPlan& plan) noexcept {
+  RONDO_DEMAND(model.threads >= 1, model.threads);
   const std::size_t most = std::max<std::size_t>(1, plan.blocks.size() / blocks_of_a_thread);
   return std::min(model.threads, static_cast<int>(most));
 }
@@ -48,6 +49,9 @@ BodiesIntegrator::BodiesIntegrator(const Model& model, const State& start,
       energy_(model.free_bodies.size()) {
   RONDO_DEMAND(can(StepKind::bodies, features_of(model)) && poses_.size() == energy_.size(),
                poses_.size(), energy_.size());
+  RONDO_DEMAND(start.u.size() == model.n_nodes() && start.v_next.size() == model.n_nodes() &&
+                   !plan_.groups.empty(),
+               start.u.size(), start.v_next.size(), model.n_nodes(), plan_.groups.size());
   fields_ = {.start = plan_.matrix.start.data(),
              .blocks = plan_.matrix.blocks.data(),
              .column = plan_.matrix.column.data(),
@@ -75,6 +79,9 @@ void BodiesIntegrator::load(std::span<const Vec2> u, std::span<const Vec2> v) no
 }
 
 void BodiesIntegrator::save_motion(std::span<Vec2> u, std::span<Vec2> v) const noexcept {
+  RONDO_ASSERT(
+      (u.empty() || u.size() == plan_.row.size()) && (v.empty() || v.size() == plan_.row.size()),
+      u.size(), v.size(), plan_.row.size());
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
     if (plan_.node[i] < 0) continue;
     const auto node = static_cast<std::size_t>(plan_.node[i]);

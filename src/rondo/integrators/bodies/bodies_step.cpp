@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/core/sum.hpp"
 #include "rondo/integrators/bodies/bodies_integrator.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
@@ -49,6 +50,7 @@ void BodiesIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
 }
 
 void BodiesIntegrator::make_steps(std::span<StepReport> reports, Share share) noexcept {
+  RONDO_ASSERT(share.n_threads <= static_cast<std::size_t>(threads_), share.n_threads, threads_);
   const StepTraps traps;
   const std::size_t first = share.first(plan_.blocks.size());
   const std::size_t last = share.last(plan_.blocks.size());
@@ -265,7 +267,7 @@ void BodiesIntegrator::solve_contacts(StepReport& report) noexcept {
       contact_->displacement()[static_cast<std::size_t>(node)] = displacement_of(row);
   const std::span<TouchingNode> touching = contact_->find(frame_);
   for (TouchingNode& t : touching) {
-    // A node that is clamped has no velocity; it is in no contact (ContactModel).
+    RONDO_ASSERT(plan_.row[static_cast<std::size_t>(t.node)] >= 0, t.node);  // see ContactModel
     corrections_.push_back(forces_on(plan_.row[static_cast<std::size_t>(t.node)]));
     t.before = corrections_.back().before;
     t.free = free_velocity(corrections_.back());

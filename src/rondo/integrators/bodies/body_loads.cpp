@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -13,6 +15,7 @@ using kernels::lanes;
 BodyLoads::BodyLoads(const Model& model, const BodyPlan& plan) : model_(model) {
   if (model.pressures.empty()) return;
   at_.assign(plan.n_packs, -1);
+  RONDO_DEMAND(plan.row.size() == model.n_nodes(), plan.row.size(), model.n_nodes());
   int n = 0;
   const auto place = [&](int row) {
     if (row < 0) return -1;
@@ -58,6 +61,7 @@ void BodyLoads::find(const double* motion, double t) noexcept {
 
 Vec2 BodyLoads::on(int row) const noexcept {
   const auto i = static_cast<std::size_t>(row);
+  RONDO_ASSERT(row >= 0 && (at_.empty() || i / lanes < at_.size()), row, at_.size());
   const int at = at_.empty() ? -1 : at_[i / lanes];
   if (at < 0) return {};
   const double* load = loads_.data() + static_cast<std::size_t>(at) * 2 * lanes + i % lanes;

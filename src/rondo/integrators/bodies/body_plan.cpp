@@ -53,6 +53,7 @@ void add_groups(const Model& model, BodyPlan& plan) {
 /// Adds the constants of a row of a group.
 void add_constant(const Model& model, const BodyGroup& group, int row, BodyPlan& plan) {
   const auto node = static_cast<std::size_t>(plan.node[static_cast<std::size_t>(row)]);
+  RONDO_ASSERT(model.mass[node] > 0.0, node, model.mass[node]);
   const Vec2 arm = model.reference[node] - group.center;
   double* c = plan.constants.data() + BodyPlan::at(row);
   c[0] = arm.x;
@@ -82,6 +83,8 @@ void add_constants(const Model& model, BodyPlan& plan) {
     }
     group.offset = {x.value(), y.value()};
     group.inertia = inertia.value();
+    RONDO_DEMAND(group.held() || (group.mass > 0.0 && group.inertia > 0.0), group.body, group.mass,
+                 group.inertia);
   }
 }
 
@@ -90,6 +93,7 @@ void add_constants(const Model& model, BodyPlan& plan) {
 std::size_t BodyPlan::group_of(int at_row) const noexcept {
   const std::size_t pack = static_cast<std::size_t>(at_row) / lanes;
   const auto group = std::ranges::upper_bound(groups, pack, {}, &BodyGroup::last_pack);
+  RONDO_ASSERT(at_row >= 0 && group != groups.end(), at_row, n_packs);
   return static_cast<std::size_t>(group - groups.begin());
 }
 
@@ -100,6 +104,9 @@ BodyPlan make_body_plan(const Model& model) {
   RONDO_DEMAND(model.free.size() < most_nodes, model.free.size());
   BodyPlan plan;
   add_groups(model, plan);
+  RONDO_DEMAND(!plan.blocks.empty() && plan.blocks.front().first_pack == 0 &&
+                   plan.blocks.back().last_pack == plan.n_packs,
+               plan.blocks.size(), plan.n_packs);  // every row in exactly one block
   plan.matrix = make_row_packs(k, plan.node, plan.n_packs, plan.row);
   add_constants(model, plan);
   return plan;

@@ -49,6 +49,10 @@ BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::si
       parts_(steps_.size() * n_parts_),
       rubber_energy_(steps_.size()) {
   RONDO_DEMAND(!has_friction_law(model));
+  RONDO_DEMAND(n_parts > 0 && threads_ >= 1, n_parts, n_pieces, model.threads);
+  RONDO_DEMAND(start.u.size() == model.n_nodes() && start.v_next.size() == model.n_nodes() &&
+                   start.u.components() == model.components(),
+               start.u.size(), start.v_next.size(), start.u.components(), model.n_nodes());
   if (has_sharp_corners(model)) corners_.emplace(model);
   if (!model.rim) return;
   rim_.emplace(model);
@@ -56,6 +60,7 @@ BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::si
 }
 
 void BatchIntegrator::set_rubber(RubberForces& forces, const State& start) {
+  RONDO_DEMAND(model_.rubber && !rubber_forces_, model_.rubber.has_value());
   rubber_work_.emplace(model_, start);
   rubber_forces_ = &forces;
 }
@@ -96,6 +101,7 @@ void BatchIntegrator::in_all_threads(Work&& work) noexcept {
 }
 
 void BatchIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
+  RONDO_ASSERT(!reports.empty() && reports.size() <= steps_.size(), reports.size());
   if (rim_) return advance_on_rim(reports);
   for (std::size_t i = 0; i < reports.size(); ++i) set_step(i);
   const std::span steps = std::span(steps_).first(reports.size());
@@ -124,11 +130,12 @@ bool BatchIntegrator::hold_within(std::span<const int>) noexcept {
 }
 
 void BatchIntegrator::add_tail(std::unique_ptr<StepTail> tail) {
-  RONDO_DEMAND(tails_.size() < n_tails(model_) && !model_.rim, tails_.size());
+  RONDO_DEMAND(tails_.size() < n_tails(model_) && !model_.rim && tail, tails_.size());
   tails_.push_back(std::move(tail));
 }
 
 std::size_t BatchIntegrator::part_of_tail(std::size_t tail) const noexcept {
+  RONDO_ASSERT(tail < tails_.size(), tail, tails_.size());
   return n_parts_ - (corners_ ? 1 : 0) - tails_.size() + tail;
 }
 
@@ -192,6 +199,7 @@ void BatchIntegrator::advance_on_rim(std::span<StepReport> reports) noexcept {
 /// Step by step: forces and impulses by all threads, the rim by one, places by all.
 void BatchIntegrator::make_steps_on_rim(std::span<StepReport> reports, long long first,
                                         Share share) noexcept {
+  RONDO_ASSERT(rim_ && tails_.empty(), tails_.size());
   for (std::size_t i = 0; i < reports.size(); ++i) {
     const long long before = first + static_cast<long long>(i);
     if (share.thread == 0) begin_step(before);
@@ -238,6 +246,9 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   RONDO_DEMAND(!reports.empty());
   const std::size_t contacts = model_.contact ? 2 * model_.contact->nodes.size() : 0;
   if (last) RONDO_DEMAND(last->active.capacity() >= contacts, last->active.capacity(), contacts);
+  RONDO_DEMAND(!last || (last->u.size() == model_.n_nodes() &&
+                         (last->v.empty() || last->v.size() == model_.n_nodes())),
+               last->u.size(), last->v.size(), model_.n_nodes());
   std::span before = reports.first(reports.size() - (last ? 1 : 0));
   while (!before.empty()) {
     const std::size_t n = std::min(before.size(), steps_.size());
@@ -288,6 +299,11 @@ SavedState BatchIntegrator::save() const {
 void BatchIntegrator::restore(const SavedState& saved) {
   RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes(),
                saved.u.size(), saved.v.size());
+  RONDO_DEMAND(
+      saved.u.components() == model_.components() &&
+          (!rim_ || saved.u_before.size() == model_.n_nodes()) &&
+          (!(rim_ || model_.stiffness_damping > 0.0) || saved.force.size() == model_.n_nodes()),
+      saved.u.components(), saved.u_before.size(), saved.force.size(), model_.n_nodes());
   step_ = saved.step;
   if (rim_) rim_->restore(saved.step, saved.rim);
   restore_fields(saved);
@@ -311,6 +327,8 @@ std::vector<contact::ProblemFile> BatchIntegrator::take_difficult() {
 
 int most_threads(const Model& model) noexcept {
   if (model.solid) return static_cast<int>(n_solid_groups(model.solid->sector.n_sectors));
+  RONDO_DEMAND(model.stiffness_operator != StiffnessOperator::cyclic || model.sector,
+               model.free.size());
   return static_cast<int>(model.stiffness_operator == StiffnessOperator::cyclic
                               ? n_cyclic_groups(model.sector->n_sectors)
                               : n_sparse_blocks(model.free.size()));

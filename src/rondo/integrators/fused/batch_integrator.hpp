@@ -114,7 +114,6 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
 };
 
 /// Threads that the steps of model.stiffness_operator can be shared among: more have no work.
-/// @pre its stiffness is there.
 [[nodiscard]] int most_threads(const Model& model) noexcept;
 
 }  // namespace rondo::dynamics

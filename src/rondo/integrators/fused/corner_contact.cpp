@@ -55,6 +55,8 @@ Model boundary_of(const Model& model) {
     if (!model.body.empty()) b.body.push_back(model.body[at(nodes[i])]);
     nodes[i] = static_cast<int>(i);
   }
+  RONDO_DEMAND(b.dt > 0.0 && b.contact->tributary.size() == nodes.size(), b.dt,
+               b.contact->tributary.size(), nodes.size());
   const std::vector<int> place = places(model);
   for (mesh::Edge& edge : b.contact->edges)
     for (int& node : edge) {
@@ -110,6 +112,7 @@ CornerContact::Extent CornerContact::extent(std::size_t n_steps,
 }
 
 void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields& fields) noexcept {
+  RONDO_ASSERT(!steps.empty(), boundary_.n_nodes());
   const bool was_near = any_near();
   n_near_ = 0;
   for (const int node : nodes_) wanted_[at(node)] = 0;
@@ -224,6 +227,7 @@ void CornerContact::solve(const StepContext& step, CandidateFields& fields,
   part = {};
   if (held_.empty()) return contact_.set_impulses({});
   for (Held& h : held_) {
+    RONDO_ASSERT(is_held_[h.candidate] != 0, h.candidate);  // since find()
     const CandidateMotion motion = fields.motion_of(h.candidate);
     state_.v_next.plane()[h.candidate] = h.free = motion.v;
     h.forces.change = motion.force - h.forces.change;
@@ -254,6 +258,7 @@ void CornerContact::solve(const StepContext& step, CandidateFields& fields,
 Vec2 CornerContact::load_on(const StepContext& step, std::size_t candidate) const noexcept {
   Vec2 load;
   if (load_of_.empty()) return load;
+  RONDO_ASSERT(candidate < load_of_.size() && step.pressures, candidate, load_of_.size());
   for (const NodalLoad& l : load_of_[candidate]) load += step.pressures[l.load] * l.force;
   return load;
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -29,6 +31,12 @@ CyclicChunk::CyclicChunk(const Model& model, const CyclicPlan& plan, const kerne
       contact_(model.contact ? static_cast<std::size_t>(plan.depth) * range.n_groups : 0) {
   const int n = plan.n_sectors;
   const auto columns = static_cast<int>(plan.stride) - 2 * halo_columns;
+  RONDO_DEMAND(range.first >= 0 && range.columns > 0 && range.first + range.columns <= n &&
+                   range.columns <= columns && range.n_groups > 0,
+               range.first, range.columns, n, columns, range.n_groups);
+  RONDO_DEMAND(model.sector && model.sector->turn.size() == static_cast<std::size_t>(n) &&
+                   model.sector->n_local() == static_cast<std::size_t>(plan.n_local),
+               n, plan.n_local);
   for (int c = -halo_columns; c < columns + halo_columns; ++c) {
     const int sector = ((range.first + c) % n + n) % n;
     turn_x_.push_back(model.sector->turn[static_cast<std::size_t>(sector)].re);
@@ -99,6 +107,7 @@ int CyclicChunk::field_next() const noexcept {
 /// K u_0 by the very blocks of the steps: with others, alike to round-off, the ledger would begin
 /// with their difference.
 Vec2 CyclicChunk::initial_force(std::span<const Vec2> u, int a, int c) const noexcept {
+  RONDO_ASSERT(u.size() == model_.n_nodes() && plan_.keeps_force, u.size(), model_.n_nodes());
   const fem::SectorStiffness& k = *model_.sector;
   const int n = plan_.n_sectors, sector = range_.first + c;
   Vec2 force;
@@ -164,6 +173,7 @@ int CyclicChunk::field_of(RowField which) const noexcept {
 }
 
 void CyclicChunk::copy_out(int row, RowField which, double* x, double* y) const noexcept {
+  RONDO_ASSERT(row >= 0 && row < plan_.n_local, row, plan_.n_local);
   const double* from =
       fields_.data() + CyclicPlan::lead + row * plan_.row_size() + field_of(which) * plan_.stride;
   std::copy_n(from, range_.columns, x + range_.first);
@@ -171,6 +181,7 @@ void CyclicChunk::copy_out(int row, RowField which, double* x, double* y) const 
 }
 
 void CyclicChunk::copy_in(int row, RowField which, const double* x, const double* y) noexcept {
+  RONDO_ASSERT(row >= 0 && row < plan_.n_local, row, plan_.n_local);
   double* to = field(row, field_of(which));
   std::copy_n(x + range_.first, range_.columns, to);
   std::copy_n(y + range_.first, range_.columns, to + plan_.stride);
@@ -293,6 +304,8 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
 
 void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride,
                        CornerContact* corners) noexcept {
+  RONDO_ASSERT(!steps.empty() && steps.size() <= static_cast<std::size_t>(plan_.depth),
+               steps.size(), plan_.depth);
   std::fill_n(sums_.data(), sums_.size(), 0.0);
   std::fill(contact_.begin(), contact_.end(), PartialStep{});
   active_.clear();
@@ -324,6 +337,7 @@ void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts, s
 }
 
 void CyclicChunk::go_on(const kernels::WheelWay& way) noexcept {
+  RONDO_ASSERT(plan_.wheel && table_.wheel, plan_.wheel);
   const int next = field_next();
   for (int first = 0; first < plan_.n_local; first += kernels::most_rows) {
     kernels::CyclicStrip s = strip_from(first, field_now(), next);
@@ -343,6 +357,7 @@ double sum_in_order(const double* x) noexcept {
 }
 /// So that few sums wait for others: a loaded rim has many.
 double sum_in_pairs(const double* x) noexcept {
+  static_assert(kernels::lanes == 8);
   return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 

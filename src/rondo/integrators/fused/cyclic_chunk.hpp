@@ -39,7 +39,7 @@ class CyclicChunk {
 
   /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
   /// @param corners which hold nodes of this chunk alone; null: none. They fill the last part.
-  /// @pre at most plan.depth steps, the halo taken.
+  /// @pre the halo is taken
   void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride,
             CornerContact* corners) noexcept;
 
@@ -67,6 +67,7 @@ class CyclicChunk {
   static constexpr int group_columns = kernels::group_packs * kernels::lanes;
   /// Place of the first component of each field in a row; u of even and of odd steps.
   enum Field { field_u_even = 0, field_u_odd = 2, field_v = 4, field_force = 6 };
+  static_assert(halo_columns == kernels::lanes);  // the halo on the left is pack -1
   /// Columns of the chunk that a step of a pass works on.
   struct Extent {
     int first_pack, last_pack;

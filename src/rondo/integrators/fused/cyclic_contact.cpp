@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/cyclic_chunk.hpp"
 
 namespace rondo::dynamics {
@@ -12,11 +13,13 @@ std::size_t CyclicChunk::candidate_at(int row, int column) const noexcept {
   const auto contact_row =
       static_cast<std::size_t>(plan_.contact_row[static_cast<std::size_t>(row)]);
   const int sector = (range_.first + column + plan_.n_sectors) % plan_.n_sectors;
+  RONDO_ASSERT(contact_row < plan_.candidate.size() && sector >= 0, row, column, sector);
   return static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
 }
 
 CandidateMotion CyclicChunk::motion_of(CyclicPlace place, int field_u) const noexcept {
   const int c = place.sector - range_.first;
+  RONDO_ASSERT(c >= 0 && c < range_.columns, place.sector, range_.first, range_.columns);
   const Complex frame = turn(c);
   const Vec2 u = at(place.row, field_u, c);
   return {frame * u, frame * at(place.row, field_v, c),

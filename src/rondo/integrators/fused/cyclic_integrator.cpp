@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/tail/implicit_tail.hpp"
 #include "rondo/integrators/fused/tail/massless_tail.hpp"
 #include "rondo/integrators/implicit/ring_operator.hpp"
@@ -15,8 +16,11 @@ class CyclicIntegrator::Rows final : public NodeFields {
  public:
   Rows(CyclicIntegrator& of, const NodeSet& nodes) : of_(of), row_size_(nodes.row_size) {
     const fem::SectorStiffness& k = *of.model_.sector;
+    RONDO_DEMAND(nodes.sectors == k.n_sectors && row_size_ >= static_cast<std::size_t>(k.n_sectors),
+                 nodes.sectors, row_size_, k.n_sectors);
     for (std::size_t i = 0; i < nodes.size(); i += row_size_) {
       const auto found = std::find(k.nodes.begin(), k.nodes.end(), nodes.node[i]);
+      RONDO_ASSERT(found != k.nodes.end(), nodes.node[i]);
       rows_.push_back(static_cast<int>(found - k.nodes.begin()));
     }
   }
@@ -31,6 +35,7 @@ class CyclicIntegrator::Rows final : public NodeFields {
     copy_out(CyclicChunk::RowField::force, force);
   }
   void write(const PlaneField& u, const PlaneField& v) noexcept override {
+    RONDO_ASSERT(u.size() == rows_.size() * row_size_ && v.size() == u.size(), u.size(), v.size());
     for (CyclicChunk& chunk : of_.chunks_)
       for (std::size_t a = 0; a < rows_.size(); ++a) {
         const std::size_t at = a * row_size_;
@@ -134,6 +139,7 @@ void CyclicIntegrator::restore_fields(const SavedState& saved) noexcept {
 }
 
 std::size_t CyclicIntegrator::chunk_of(int sector) const noexcept {
+  RONDO_ASSERT(sector >= 0 && sector < plan_.n_sectors, sector, plan_.n_sectors);
   const auto after =
       std::upper_bound(plan_.chunks.begin(), plan_.chunks.end(), sector,
                        [](int s, const CyclicChunkRange& chunk) { return s < chunk.first; });
@@ -142,6 +148,7 @@ std::size_t CyclicIntegrator::chunk_of(int sector) const noexcept {
 
 /// All in one chunk, and out of what its neighbours advance of it.
 bool CyclicIntegrator::hold_within(std::span<const int> candidates) noexcept {
+  RONDO_ASSERT(!candidates.empty(), plan_.place.size());
   const auto sector = [&](int candidate) {
     return plan_.place[static_cast<std::size_t>(candidate)].sector;
   };

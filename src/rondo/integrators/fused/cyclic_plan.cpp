@@ -44,12 +44,14 @@ void choose_chunks(CyclicPlan& plan, int threads, const CyclicTuning& tuning) {
 
 void add_rows(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
   for (const SectorStiffness::Entry& e : k.entries) {
+    RONDO_ASSERT(e.shift >= -1 && e.shift <= 1, e.column, e.shift);
     kernels::CyclicEntry entry{e.column * plan.row_size() + e.shift, {}};
     std::copy(e.block.begin(), e.block.end(), entry.k);
     plan.entries.push_back(entry);
   }
   for (std::size_t a = 0; a < k.n_local(); ++a) {
     const double mass = model.mass[k.node(a, 0)];
+    RONDO_ASSERT(mass > 0.0 || has_massless_contact(model), a, mass);
     const Vec2 reference = model.reference[k.node(a, 0)];
     plan.rows.push_back({.entries = plan.entries.data() + k.row_start[a],
                          .n_entries = static_cast<int>(k.row(a).size()),
@@ -131,6 +133,7 @@ void add_loads(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
   std::map<std::pair<std::size_t, int>, CyclicLoad> loads;  // by row and load
   for (const NodalLoad& l : nodal_loads(model)) {
     const std::size_t a = row_of[static_cast<std::size_t>(l.node % k.nodes_per_sector)];
+    RONDO_ASSERT(l.node / k.nodes_per_sector < k.n_sectors, l.node, k.n_sectors);
     if (a == k.n_local()) continue;
     CyclicLoad& on_row = loads[{a, l.load}];
     on_row.row = static_cast<int>(a);
@@ -188,6 +191,8 @@ std::size_t n_cyclic_groups(int n_sectors) noexcept {
 
 RingCut cut_ring(int n_sectors, int columns_of_group, std::size_t bytes, bool stepwise, int threads,
                  const CyclicTuning& tuning) {
+  RONDO_DEMAND(n_sectors > 0 && columns_of_group > 0 && threads >= 1 && tuning.chunk_columns > 0,
+               n_sectors, columns_of_group, threads, tuning.chunk_columns);
   RingCut ring;
   const int groups = (n_sectors + columns_of_group - 1) / columns_of_group;
   ring.n_groups = static_cast<std::size_t>(groups);
@@ -200,6 +205,10 @@ RingCut cut_ring(int n_sectors, int columns_of_group, std::size_t bytes, bool st
   const auto narrowest =
       std::min_element(ring.chunks.begin(), ring.chunks.end(),
                        [](const auto& a, const auto& b) { return a.columns < b.columns; });
+  const CyclicChunkRange& last = ring.chunks.back();  // every sector and group in one chunk
+  RONDO_DEMAND(narrowest->columns > 0 && last.first + last.columns == n_sectors &&
+                   last.first_group + last.n_groups == ring.n_groups,
+               narrowest->columns, last.first, last.columns, n_sectors);
   if (ring.chunks.size() == 1)
     ring.halo = Halo::ring;
   else if (stepwise)
@@ -208,6 +217,7 @@ RingCut cut_ring(int n_sectors, int columns_of_group, std::size_t bytes, bool st
     ring.halo = narrowest->columns >= tuning.wide_halo_columns ? Halo::wide : Halo::narrow;
   const bool one_by_one = ring.halo == Halo::ring ? in_cache : ring.halo == Halo::narrow;
   ring.depth = one_by_one ? 1 : most_steps_in_a_pass;
+  RONDO_DEMAND(ring.halo != Halo::wide || narrowest->columns >= halo_columns, narrowest->columns);
   return ring;
 }
 
@@ -219,7 +229,9 @@ std::ptrdiff_t cyclic_stride(const std::vector<CyclicChunkRange>& chunks) noexce
   std::ptrdiff_t stride =
       (widest + 2 * kernels::lanes - 1) / kernels::lanes * kernels::lanes + 2 * halo_columns;
   constexpr std::ptrdiff_t page = 4096 / sizeof(double), apart = page / 8;
+  static_assert(page % kernels::lanes == 0 && 2 * apart < page);
   while (stride % page < apart || stride % page > page - apart) stride += kernels::lanes;
+  RONDO_DEMAND(widest > 0 && stride % kernels::lanes == 0, widest, stride);
   return stride;
 }
 
@@ -233,6 +245,9 @@ std::size_t CyclicPlan::first_load(int strip) const noexcept {
 CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   RONDO_DEMAND(model.sector.has_value());
   const SectorStiffness& k = *model.sector;
+  RONDO_DEMAND(k.n_local() > 0 && model.mass.size() == model.n_nodes() &&
+                   k.n_local() * static_cast<std::size_t>(k.n_sectors) == model.free.size(),
+               k.n_local(), k.n_sectors, model.mass.size(), model.free.size());
   CyclicPlan plan;
   plan.n_local = static_cast<int>(k.n_local());
   plan.n_sectors = k.n_sectors;

@@ -23,6 +23,7 @@ enum class Halo {
 
 inline constexpr int halo_columns = 8;
 inline constexpr int most_steps_in_a_pass = 4;
+static_assert(most_steps_in_a_pass <= halo_columns);
 
 struct CyclicChunkRange {
   int first = 0;  ///< sector of its first column
@@ -88,6 +89,7 @@ struct CyclicPlan {
   [[nodiscard]] std::size_t first_load(int strip) const noexcept;
   /// Doubles before sector 0 of a chunk's first field.
   static constexpr std::ptrdiff_t lead = 2 * halo_columns;
+  static_assert(lead >= halo_columns && lead % kernels::lanes == 0);  // packs stay aligned
 };
 
 /// Sizes that the cut is fitted to. The bits of the results do not depend on them.
@@ -113,7 +115,7 @@ RingCut cut_ring(int n_sectors, int columns_of_group, std::size_t bytes, bool st
 /// Doubles between the fields of a row of the widest chunk.
 std::ptrdiff_t cyclic_stride(const std::vector<CyclicChunkRange>& chunks) noexcept;
 
-/// @pre model.sector is there.
+/// @pre model.sector, with all free nodes in its rows
 CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning = {});
 
 }  // namespace rondo::dynamics

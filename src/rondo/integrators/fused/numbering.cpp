@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/kernels/kernels.hpp"
 
 namespace rondo::dynamics {
@@ -25,6 +26,7 @@ void put_row(const fem::BlockCsr& k, int node, std::span<const int> row, std::si
   for (auto at = k.row_start[of]; at < k.row_start[of + 1]; ++at, place += lanes) {
     const auto b = static_cast<std::size_t>(at);
     const auto [xx, yx, xy, yy] = k.values[b];
+    RONDO_ASSERT(row[static_cast<std::size_t>(k.column[b])] >= 0, node, k.column[b]);
     packs.column.data()[place] = 2 * row[static_cast<std::size_t>(k.column[b])];
     std::ranges::copy(std::array{xx, xy, yx, yy}, packs.blocks.data() + 4 * place);
   }
@@ -138,6 +140,7 @@ std::vector<int> reverse_cuthill_mckee(const fem::BlockCsr& k, std::span<const i
   for (const int node : nodes)
     if (!walker.in_order(node)) walker.add_part(node);
   std::vector<int> order = walker.take_order();
+  RONDO_DEMAND(order.size() == nodes.size(), order.size(), nodes.size());  // couple with no others
   std::reverse(order.begin(), order.end());
   return order;
 }
@@ -159,6 +162,8 @@ void sort_by_length(const fem::BlockCsr& k, std::vector<int>& order) {
 
 RowPacks make_row_packs(const fem::BlockCsr& k, std::span<const int> node, std::size_t n_packs,
                         std::span<const int> row) {
+  RONDO_DEMAND(row.size() == k.n_rows() && node.size() <= n_packs * lanes, row.size(), k.n_rows(),
+               node.size(), n_packs);
   const auto is_padding = [&](std::size_t i) { return i >= node.size() || node[i] < 0; };
   RowPacks packs;
   packs.start.assign(1, 0);
@@ -174,6 +179,7 @@ RowPacks make_row_packs(const fem::BlockCsr& k, std::span<const int> node, std::
     const auto last = static_cast<std::size_t>(packs.start[i / lanes + 1]);
     for (std::size_t at = first; at < last; ++at)
       packs.column.data()[at * lanes + i % lanes] = static_cast<std::int32_t>(2 * i);
+    RONDO_ASSERT(is_padding(i) || row_length(k, node[i]) <= last - first, node[i], last - first);
     if (!is_padding(i)) put_row(k, node[i], row, first * lanes + i % lanes, packs);
   }
   return packs;

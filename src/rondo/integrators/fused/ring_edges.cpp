@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -29,6 +31,7 @@ void wrap(const ChunkFields& chunk, int row, int field) noexcept {
 RingEdges::RingEdges(Halo halo, bool keeps_force, int n_rows, int components)
     : width_(halo == Halo::wide ? halo_columns : 1),
       n_fields_(halo == Halo::wide ? (keeps_force ? 3 : 2) : 1) {
+  RONDO_DEMAND(halo != Halo::ring && n_rows > 0 && components > 0, n_rows, components);
   for (auto& parity : edges_)
     for (LargeArray& edge : parity)
       edge = LargeArray(static_cast<std::size_t>(n_rows * width_ * components) * n_fields_);
@@ -36,6 +39,7 @@ RingEdges::RingEdges(Halo halo, bool keeps_force, int n_rows, int components)
 
 void RingEdges::give(const ChunkFields& chunk, const std::array<int, 3>& fields,
                      std::size_t pass) noexcept {
+  RONDO_ASSERT(width_ > 0 && chunk.columns >= width_, width_, chunk.columns);
   double* left = edges_[pass % 2][0].data();
   double* right = edges_[pass % 2][1].data();
   for_components(chunk, fields, n_fields_, [&](const double* x) {
@@ -46,6 +50,7 @@ void RingEdges::give(const ChunkFields& chunk, const std::array<int, 3>& fields,
 
 void RingEdges::take(const ChunkFields& chunk, const std::array<int, 3>& fields, std::size_t pass,
                      const RingEdges& left, const RingEdges& right) const noexcept {
+  RONDO_ASSERT(left.width_ == width_ && right.width_ == width_, width_, left.width_, right.width_);
   const double* from_left = left.edges_[pass % 2][1].data();
   const double* from_right = right.edges_[pass % 2][0].data();
   for_components(chunk, fields, n_fields_, [&](double* x) {

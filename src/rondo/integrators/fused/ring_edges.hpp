@@ -28,7 +28,7 @@ class RingEdges {
  public:
   RingEdges() = default;
   /// A wide halo, which is advanced, takes u, v and with `keeps_force` the force; a narrow one,
-  /// which is only read, takes u. @pre halo is not Halo::ring
+  /// which is only read, takes u
   RingEdges(Halo halo, bool keeps_force, int n_rows, int components);
 
   /// @param fields of u, v and the force, at the end of the pass

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/tail/implicit_tail.hpp"
 #include "rondo/integrators/fused/tail/massless_tail.hpp"
 
@@ -40,6 +41,12 @@ class SparseIntegrator::Rows final : public NodeFields {
     std::vector<std::size_t> row(of.model_.n_nodes());
     for (std::size_t i = 0; i < of.plan_.node.size(); ++i)
       row[static_cast<std::size_t>(of.plan_.node[i])] = i;
+    RONDO_ASSERT(std::ranges::all_of(nodes.node,
+                                     [&](int node) {
+                                       const std::size_t i = row[static_cast<std::size_t>(node)];
+                                       return of.plan_.node[i] == node;
+                                     }),
+                 nodes.size());  // none is clamped
     for (const int node : nodes.node) rows_.push_back(row[static_cast<std::size_t>(node)]);
   }
 
@@ -57,6 +64,7 @@ class SparseIntegrator::Rows final : public NodeFields {
       force.put(i, vector_at(of_.motion_.data() + of_.motion_at(rows_[i]) + force_at));
   }
   void write(const PlaneField& u, const PlaneField& v) noexcept override {
+    RONDO_ASSERT(u.size() == rows_.size() && v.size() == rows_.size(), u.size(), v.size());
     double* now = of_.u_[parity(of_.step_)].data();
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       now[2 * rows_[i]] = u.x[i];
@@ -91,6 +99,8 @@ SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
   load(start);
   add_tails(table);
   if (!model.rubber) return;
+  RONDO_DEMAND(plan_.node.size() < plan_.n_packs * lanes && table.rubber, plan_.node.size(),
+               plan_.n_packs);  // clamped corners read the row of zeros behind the last
   rubber_.emplace(model, plan_.row_of_node, static_cast<int>(plan_.node.size()), plan_.n_packs,
                   start.u, *table.rubber);
   set_rubber(*rubber_, start);
@@ -214,6 +224,7 @@ void SparseIntegrator::save_active(std::vector<ActiveContact>& active) const noe
 }
 
 CandidateMotion SparseIntegrator::motion_of(std::size_t candidate) const noexcept {
+  RONDO_ASSERT(candidate < plan_.row.size(), candidate, plan_.row.size());
   const int row = plan_.row[candidate];
   const double* motion = motion_.data() + motion_at(static_cast<std::size_t>(row));
   const double *now = u_[parity(step_)].data(), *before = u_[parity(step_ + 1)].data();
@@ -294,6 +305,7 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
 /// The force of the elements and K on a row.
 Vec2 SparseIntegrator::force_on(const double* now, int row) const noexcept {
   const auto r = static_cast<std::size_t>(row);
+  RONDO_ASSERT(rubber_ && r / lanes + 1 < plan_.matrix.start.size(), row, plan_.n_packs);
   Vec2 force = rubber_->force_on(row);
   for (std::int64_t place = plan_.matrix.start[r / lanes];
        place < plan_.matrix.start[r / lanes + 1]; ++place) {
@@ -402,6 +414,7 @@ void SparseIntegrator::evaluate_rubber(const Work& work, Share share) noexcept {
 /// it must be there.
 void SparseIntegrator::make_steps(const Batch& batch, Share share) noexcept {
   const std::size_t n = plan_.n_blocks;
+  RONDO_ASSERT(share.thread < contacts_.size(), share.thread, contacts_.size());
   // Contacts of this thread, and of those that are not there this time.
   for (std::size_t k = share.thread; k < contacts_.size(); k += share.n_threads)
     contacts_[k].active.clear();

@@ -35,6 +35,7 @@ void add_constants(const Model& model, SparsePlan& plan) {
     double* c = plan.constants.data() + i / lanes * 4 * lanes + i % lanes;
     c[0] = model.reference[node].x;
     c[lanes] = model.reference[node].y;
+    RONDO_ASSERT(model.mass[node] > 0.0 || has_massless_contact(model), node, model.mass[node]);
     c[2 * lanes] = model.mass[node];
     c[3 * lanes] = model.mass[node] > 0.0 ? model.dt / model.mass[node] : 0.0;
   }
@@ -63,6 +64,7 @@ void add_contact(const Model& model, const std::vector<int>& row, SparsePlan& pl
       ++c;
     plan.first_candidate[b] = c;
   }
+  RONDO_DEMAND(c == nodes.size(), c, nodes.size());  // every candidate in exactly one block
 }
 
 /// Adds the forces of each load on each pack that it acts on.
@@ -88,6 +90,8 @@ void add_loads(const Model& model, const std::vector<int>& row, SparsePlan& plan
     to += 2 * lanes;
   }
   std::partial_sum(plan.first_load.begin(), plan.first_load.end(), plan.first_load.begin());
+  RONDO_DEMAND(static_cast<std::size_t>(plan.first_load.back()) == plan.load_of.size(),
+               plan.first_load.back(), plan.load_of.size());
 }
 
 }  // namespace
@@ -110,7 +114,12 @@ SparsePlan make_sparse_plan(const Model& model) {
   sort_by_length(k, plan.node);
   plan.n_packs = packs_of(plan.node.size() + (model.rubber ? 1 : 0));  // a row of zeros is there
   plan.n_blocks = n_sparse_blocks(plan.node.size());
+  RONDO_DEMAND(plan.node.size() == model.free.size() && model.mass.size() == model.n_nodes(),
+               plan.node.size(), model.free.size(), model.mass.size(), model.n_nodes());
   const std::vector<int> row = row_of(model, plan);
+  RONDO_ASSERT(static_cast<std::size_t>(std::ranges::count_if(row, [](int r) { return r >= 0; })) ==
+                   model.free.size(),
+               model.free.size());  // every free node in exactly one row
   plan.matrix = make_row_packs(k, plan.node, plan.n_packs, row);
   add_constants(model, plan);
   add_contact(model, row, plan);

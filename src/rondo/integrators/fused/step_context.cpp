@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/integrators/fused/step_context.hpp"
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -16,6 +18,7 @@ void add_axial(const Model& model, const FrameStep& f, const VelocityUpdate& upd
 }  // namespace
 
 StepContext step_context(const Model& model, const FrameStep& f) noexcept {
+  RONDO_ASSERT(model.dt > 0.0 && !model.rim, model.dt, model.rim.has_value());
   StepContext s;
   s.frame = f;
   const double dt = model.dt;
@@ -54,6 +57,7 @@ void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
 }
 
 StepContext wheel_context(const Model& model, const FrameStep& f, Complex back) noexcept {
+  RONDO_ASSERT(model.dt > 0.0 && model.rim, model.dt, model.rim.has_value());
   StepContext s;
   s.frame = f;
   const double dt = model.dt;
@@ -84,6 +88,8 @@ void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& f
 namespace {
 
 StepSums add_up(std::span<const PartialStep> parts) noexcept {
+  static_assert(int{kernels::n_sums} <= int{kernels::n_rubber_sums} &&
+                int{kernels::n_rubber_sums} <= kernels::most_sums);
   std::array<CompensatedSum, kernels::n_rubber_sums> sums;  // what is not set is 0
   for (const PartialStep& part : parts)
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(part.sums[k]);

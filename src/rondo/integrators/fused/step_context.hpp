@@ -43,6 +43,7 @@ using StepSums = std::array<double, kernels::most_sums>;
 
 /// Sum of all lanes of a kernel's sum, in pairs, so that few additions wait for others.
 inline double sum_of_lanes(const double* x) noexcept {
+  static_assert(kernels::lanes == 8);
   return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 

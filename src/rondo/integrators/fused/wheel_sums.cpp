@@ -7,6 +7,8 @@ namespace {
 using namespace kernels;
 
 Vec2 vector_of(const StepSums& s, WheelSum x) noexcept {
+  static_assert(wheel_force_y == wheel_force_x + 1 && wheel_change_y == wheel_change_x + 1 &&
+                wheel_mass_y == wheel_mass_x + 1 && wheel_momentum_y == wheel_momentum_x + 1);
   return {s[x], s[static_cast<std::size_t>(x) + 1]};
 }
 

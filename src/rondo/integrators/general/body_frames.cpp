@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 
 FrameStep fixed_frame_step(const Model& model, long long n) noexcept {
@@ -20,6 +22,8 @@ BodyFrame::BodyFrame(const Model& model, const FrameStep& f) noexcept
 
 BodyFrames::BodyFrames(const Model& model, const FrameStep& turning) noexcept
     : turning_(model, turning),
-      fixed_(model, fixed_frame_step(model, std::llround(turning.time / model.dt))) {}
+      fixed_(model, fixed_frame_step(model, std::llround(turning.time / model.dt))) {
+  RONDO_ASSERT(model.dt > 0.0 && turning.time >= 0.0, model.dt, turning.time);
+}
 
 }  // namespace rondo::dynamics

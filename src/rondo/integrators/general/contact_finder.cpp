@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "rondo/contact/coupled/node_to_segment.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
@@ -16,6 +17,7 @@ namespace {
 using contact::EdgeTouch;
 
 std::uint64_t key_of(ContactKind kind, std::size_t first, std::size_t second) noexcept {
+  RONDO_ASSERT(first >> key_bits_of_edge == 0 && second >> key_bits_of_edge == 0, first, second);
   return static_cast<std::uint64_t>(kind) << 62U |
          static_cast<std::uint64_t>(first) << key_bits_of_edge | static_cast<std::uint64_t>(second);
 }
@@ -77,6 +79,10 @@ ContactFinder::ContactFinder(const Model& model)
       positions_(model.n_nodes()),
       near_edges_(model, surface_, deepest_),
       is_near_(model.n_nodes()) {
+  RONDO_DEMAND(!model.contact || model.contact->tributary.size() == model.contact->nodes.size(),
+               model.contact->tributary.size(), model.contact->nodes.size());
+  RONDO_DEMAND(!model.surfaces || model.surfaces->tributary.size() == model.surfaces->nodes.size(),
+               model.surfaces->tributary.size(), model.surfaces->nodes.size());
   if (model.contact && !model.contact->tributary.empty())
     ground_margin_ = std::ranges::min(model.contact->tributary);
   if (!model.surfaces) return;
@@ -91,6 +97,7 @@ ContactFinder::ContactFinder(const Model& model)
 }
 
 std::span<const int> ContactFinder::boundary_after(double travelled) noexcept {
+  RONDO_ASSERT(!(travelled < 0.0), travelled);
   slack_ -= travelled;
   near_alone_ = slack_ > 0.0;
   return near_alone_ ? near_nodes_ : boundary_;
@@ -98,6 +105,7 @@ std::span<const int> ContactFinder::boundary_after(double travelled) noexcept {
 
 /// False: some place is none.
 bool ContactFinder::set_positions(const State& state) {
+  RONDO_ASSERT(state.u.size() == model_.n_nodes(), state.u.size(), model_.n_nodes());
   Vec2 sum;
   for (const int node : near_alone_ ? near_nodes_ : boundary_)
     sum += positions_[at(node)] = position(model_, state, at(node));
@@ -240,6 +248,7 @@ void ContactFinder::find_corners(std::vector<ContactRow>& rows) {
 
 void ContactFinder::find_corner(std::size_t c, std::span<const int> edges,
                                 std::vector<ContactRow>& rows) const {
+  RONDO_ASSERT(c < model_.contact->ground.corners().size(), c);
   const contact::Corner& corner = model_.contact->ground.corners()[c];
   const Vec2 facing = corner.normals[0] + corner.normals[1];
   const contact::EdgeTouches touches = contact::touch_boundary(
@@ -265,6 +274,7 @@ void ContactFinder::find_corner(std::size_t c, std::span<const int> edges,
 
 /// Sum of the normals of a node's edges, out of the body.
 Vec2 ContactFinder::outward_of(int node) const {
+  RONDO_ASSERT(model_.surfaces && at(node) + 1 < first_edge_.size(), node, first_edge_.size());
   Vec2 sum;
   for (int i = first_edge_[at(node)]; i < first_edge_[at(node) + 1]; ++i) {
     const mesh::Edge& e = surface_.edges[at(edges_at_[at(i)])];

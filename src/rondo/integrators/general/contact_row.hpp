@@ -17,6 +17,7 @@ enum class ContactKind : std::uint8_t {
 
 /// In a row's key the edge of the body has this many bits; before them are kind and corner or node.
 inline constexpr unsigned key_bits_of_edge = 31;
+static_assert(sizeof(std::uint64_t) * 8 == 2 + 2 * key_bits_of_edge);  // two for the kind
 
 struct ContactRow {
   ContactKind kind = ContactKind::facet;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "rondo/contact/residual.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/core/keep_larger.hpp"
 
@@ -43,6 +44,10 @@ GeneralContact::GeneralContact(const Model& model)
                                   : model.surfaces ? &model.surfaces->nodes
                                                    : nullptr;
   if (!nodes) return;
+  RONDO_DEMAND(model.dt > 0.0 && model.mass.size() == model.n_nodes(), model.dt, model.mass.size(),
+               model.n_nodes());
+  RONDO_ASSERT(!model.contact || !model.surfaces || model.contact->nodes == model.surfaces->nodes,
+               nodes->size());  // one numbering of the candidates
   for (std::size_t i = 0; i < nodes->size(); ++i) candidate_[at((*nodes)[i])] = static_cast<int>(i);
 }
 
@@ -69,6 +74,8 @@ std::span<const ContactRow> GeneralContact::find_at_corners(const State& state,
 }
 
 ContactReport GeneralContact::solve_found(const BodyFrames& frames, Vec2 center, State& state) {
+  RONDO_ASSERT(state.v.size() == model_.n_nodes() && state.v_next.size() == model_.n_nodes(),
+               state.v.size(), state.v_next.size(), model_.n_nodes());
   ContactReport report;
   state.active.clear();
   center_ = center;
@@ -122,12 +129,14 @@ double GeneralContact::turning_of(const BodyFrames& frames, const ContactRow& ro
 /// w⁻ and w without impulses of every row, and the Delassus operators of their nodes.
 void GeneralContact::set_velocities(const BodyFrames& frames, const State& state) {
   for (ContactRow& row : rows_) {
+    RONDO_ASSERT(row.law && row.rows.count >= 1, row.key, row.rows.count);
     row.before = row_sum(row.rows, [&](std::size_t k) {
       return velocity_before(frames.of(model_, k).contact, arm_of(model_, state, k),
                              state.v.plane()[k]);
     });
     row.free = row_sum(row.rows, [&](std::size_t k) {
       const ContactStep& step = frames.of(model_, k).contact;
+      RONDO_ASSERT(model_.mass[k] > 0.0, k, model_.mass[k]);
       response_[k] = step.turn / (model_.mass[k] * step.a);
       return velocity_after(step, arm_of(model_, state, k), state.v_next.plane()[k]);
     });
@@ -192,6 +201,7 @@ bool GeneralContact::one_node_on_ground(Rows rows) const {
 void GeneralContact::solve_on_ground(const BodyFrames& frames, Rows rows, State& state,
                                      ContactReport& report) {
   const auto k = at(rows_[at(rows[0])].rows.node[0]);
+  RONDO_ASSERT(candidate_[k] >= 0 && rows.size() <= 2, k, rows.size());  // facets at a node
   const auto i = at(candidate_[k]);
   contact::Touches touches;
   for (const int j : rows)

@@ -9,6 +9,7 @@
 #include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/coupled/coupled.hpp"
 #include "rondo/contact/coupled/problem_file.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/integrators/general/body_frames.hpp"
 #include "rondo/integrators/general/contact_finder.hpp"
 
@@ -23,7 +24,10 @@ class GeneralContact {
   ContactReport solve(const BodyFrames& frames, Vec2 center, State& state);
 
   /// Candidates whose contacts are solved elsewhere. @param held (nb)
-  void leave_out(std::vector<char> held) { held_ = std::move(held); }
+  void leave_out(std::vector<char> held) {
+    RONDO_DEMAND(model_.contact && held.size() == model_.contact->nodes.size(), held.size());
+    held_ = std::move(held);
+  }
 
   // solve() in two parts: find() at u, then solve_found() with velocities without impulses.
   /// See ContactFinder::find.

@@ -18,6 +18,9 @@ GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
       damping_(model.stiffness_damping > 0.0 ? model.n_nodes() : 0),
       load_(model.pressures.empty() ? 0 : model.n_nodes()) {
   RONDO_DEMAND(!model.rim && (model.free_bodies.empty() || model.scheme == Scheme::symplectic));
+  RONDO_DEMAND(start.u.size() == model.n_nodes() && start.v_next.size() == model.n_nodes() &&
+                   start.poses.size() == model.free_bodies.size(),
+               start.u.size(), start.v_next.size(), start.poses.size(), model.free_bodies.size());
   state_.v = Field(model.n_nodes(), 2);
   take_poses();
   if (model.implicit) set_implicit();
@@ -30,6 +33,7 @@ GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
 
 void GeneralIntegrator::set_implicit() {
   NodeSet nodes = node_set(model_, model_.implicit->nodes);
+  RONDO_DEMAND(nodes.size() > 0, model_.n_nodes());
   const double spin = factored_spin(model_);
   implicit_velocity_ = PlaneField(nodes.size());
   auto implicit = assembled_operator(model_, nodes, spin);
@@ -39,6 +43,8 @@ void GeneralIntegrator::set_implicit() {
 }
 
 void GeneralIntegrator::take_poses() noexcept {
+  RONDO_ASSERT(internal_->poses().size() == state_.poses.size(), internal_->poses().size(),
+               state_.poses.size());
   std::copy(internal_->poses().begin(), internal_->poses().end(), state_.poses.begin());
 }
 
@@ -72,6 +78,9 @@ void GeneralIntegrator::move_ring(const ContactStep& step) noexcept {
   RingMotion& motion = ring_->motion();
   const std::span<const int> nodes = ring_->nodes(), around = ring_->neighbours();
   const auto at = [](int node) { return static_cast<std::size_t>(node); };
+  RONDO_ASSERT(
+      motion.place.size() == nodes.size() + around.size() && motion.rate.size() == around.size(),
+      motion.place.size(), motion.rate.size(), nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     motion.place[i] = state_.u.plane()[at(nodes[i])];
     motion.before[i] = state_.v.plane()[at(nodes[i])];
@@ -187,6 +196,7 @@ StepReport GeneralIntegrator::step() noexcept {
 }
 
 void GeneralIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
+  RONDO_DEMAND(!reports.empty());
   for (StepReport& report : reports) report = step();
   if (!last) return;
   last->step = state_.step;

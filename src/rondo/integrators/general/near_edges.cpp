@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
@@ -30,6 +31,10 @@ bool contains(const Box& box, Vec2 x) noexcept {
 NearEdges::NearEdges(const Model& model, const contact::Boundary& surface, double reach)
     : model_(model), surface_(surface), reach_(reach) {
   if (!model.surfaces) return;
+  RONDO_DEMAND(surface.body.size() == surface.edges.size() &&
+                   surface.edges.size() == model.surfaces->edges.size() &&
+                   (reach > 0.0 || surface.edges.empty()),
+               surface.body.size(), surface.edges.size(), reach);
   boundary_ = model.surfaces->nodes;
   for (const mesh::Edge& edge : surface.edges)
     boundary_.insert(boundary_.end(), edge.begin(), edge.end());
@@ -42,6 +47,7 @@ NearEdges::NearEdges(const Model& model, const contact::Boundary& surface, doubl
 }
 
 void NearEdges::update(std::span<const Vec2> positions) {
+  RONDO_ASSERT(model_.surfaces && positions.size() == model_.n_nodes(), positions.size());
   if (!holds(positions)) build(positions);
 }
 
@@ -85,6 +91,7 @@ void NearEdges::find_boxes(std::span<const Vec2> positions) {
   std::ranges::fill(boxes_, Box{{infinity, infinity}, {-infinity, -infinity}});
   for (std::size_t i = 0; i < surface_.edges.size(); ++i) {
     const auto body = std::ranges::lower_bound(bodies_, surface_.body[i]) - bodies_.begin();
+    RONDO_ASSERT(static_cast<std::size_t>(body) < boxes_.size(), body, boxes_.size());
     for (const int node : surface_.edges[i])
       widen(boxes_[static_cast<std::size_t>(body)], positions[at(node)], (1.0 + skin) * reach_);
   }

@@ -20,6 +20,9 @@ WheelIntegrator::WheelIntegrator(const Model& model, const State& start)
       internal_(make_internal_force(model, start.u, start.poses)),
       contact_(model) {
   RONDO_DEMAND(model.rim && model.free_bodies.empty() && model.scheme == Scheme::symplectic);
+  RONDO_DEMAND(start.u.size() == model.n_nodes() && start.v_next.size() == model.n_nodes() &&
+                   !start.rim.empty(),
+               start.u.size(), start.v_next.size(), start.rim.size(), model.n_nodes());
   rim_.restore(start.step, start.rim);
   state_.v = Field(model.n_nodes(), 2);
   forces_.all.resize(model.n_nodes());
@@ -36,11 +39,13 @@ WheelIntegrator::WheelIntegrator(const Model& model, const State& start)
 
 /// As the rim sees it, in the half step before u_{n+1}.
 void WheelIntegrator::relative_before(std::span<Vec2> velocity) const noexcept {
+  RONDO_ASSERT(velocity.size() == model_.n_nodes(), velocity.size(), model_.n_nodes());
   const std::span u = state_.u.plane(), before = before_.plane();
   for_free_nodes(model_, [&](std::size_t k) { velocity[k] = (u[k] - before[k]) / model_.dt; });
 }
 
 void WheelIntegrator::relative_after(std::span<Vec2> velocity) const noexcept {
+  RONDO_ASSERT(velocity.size() == model_.n_nodes(), velocity.size(), model_.n_nodes());
   const std::span u = state_.u.plane(), next = next_.plane();
   for_free_nodes(model_, [&](std::size_t k) { velocity[k] = (next[k] - u[k]) / model_.dt; });
 }
@@ -158,6 +163,7 @@ StepReport WheelIntegrator::step() noexcept {
 }
 
 void WheelIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
+  RONDO_DEMAND(!reports.empty());
   for (StepReport& report : reports) report = step();
   if (!last) return;
   last->step = state_.step;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 
 ContactReport contact_of(std::span<const FineContact> fine) noexcept {
+  RONDO_DEMAND(!fine.empty());
   ContactReport sum;
   for (const FineContact& f : fine) {
     sum.add(f.report);

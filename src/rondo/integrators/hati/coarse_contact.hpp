@@ -9,7 +9,7 @@
 namespace rondo::dynamics {
 
 /// Sums of impulses, works and problems solved; largest values; nodes, sticking ones, length and
-/// those between bodies of the last fine step. @pre at least one
+/// those between bodies of the last fine step
 [[nodiscard]] ContactReport contact_of(std::span<const FineContact> fine) noexcept;
 
 /// The impulses of each candidate summed, by candidate; that of the newest normal first, which has

@@ -28,6 +28,12 @@ CoarsePart::CoarsePart(const Model& whole, const PartFields& start)
       force_(whole.n_nodes()),
       load_(row_of(part_.free.size())),
       change_(load_.size()) {
+  RONDO_DEMAND(part_.mass.size() == whole.n_nodes() && start.u.size() == whole.n_nodes() &&
+                   part_.stiffness.row_start.size() == whole.n_nodes() + 1,
+               part_.mass.size(), start.u.size(), part_.stiffness.row_start.size(),
+               whole.n_nodes());
+  RONDO_ASSERT(std::ranges::includes(part_.free, interface_), part_.free.size(),
+               interface_.size());  // both ascending
   for (const int node : part_.free) {
     fields_.u.plane()[at(node)] = start.u.plane()[at(node)];
     fields_.v.plane()[at(node)] = start.v.plane()[at(node)];
@@ -49,6 +55,7 @@ CoarsePart::Matrix CoarsePart::matrix() const {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < part_.free.size(); ++i) {
     const double mass = part_.mass[at(part_.free[i])];
+    RONDO_ASSERT(mass > 0.0, part_.free[i], mass);
     const auto row = static_cast<int>(row_of(i));
     entries.emplace_back(row, row, mass * of_mass);
     entries.emplace_back(row + 1, row + 1, mass * of_mass);
@@ -87,6 +94,7 @@ void CoarsePart::find_load(Vec2 pull) {
 }
 
 void CoarsePart::take_multiplier(std::span<const Vec2> multiplier) {
+  RONDO_ASSERT(multiplier.size() == interface_.size(), multiplier.size(), interface_.size());
   for (std::size_t i = 0; i < interface_.size(); ++i) {
     load_[row_of(at(place_[i]))] -= whole_.dt * multiplier[i].x;
     load_[row_of(at(place_[i])) + 1] -= whole_.dt * multiplier[i].y;
@@ -104,6 +112,7 @@ Vec2 CoarsePart::mean_velocity(const PartFields& from, std::size_t place) const 
 
 /// Δ v̄ of the interface.
 void CoarsePart::find_travel(const PartFields& from, std::span<Vec2> travel) const noexcept {
+  RONDO_ASSERT(travel.size() == interface_.size(), travel.size(), interface_.size());
   for (std::size_t i = 0; i < interface_.size(); ++i)
     travel[i] = whole_.dt * mean_velocity(from, at(place_[i]));
 }

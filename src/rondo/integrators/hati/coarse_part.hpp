@@ -5,6 +5,7 @@
 #include <Eigen/SparseLU>
 #include <vector>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/integrators/hati/fine_part.hpp"
 
 namespace rondo::dynamics {
@@ -28,7 +29,11 @@ class CoarsePart {
   [[nodiscard]] const Works& works() const noexcept { return works_; }
   [[nodiscard]] const PartFields& fields() const noexcept { return fields_; }
   void add_energy(double& kinetic, double& strain);
-  void set(PartFields fields) { fields_ = std::move(fields); }
+  void set(PartFields fields) {
+    RONDO_DEMAND(fields.u.size() == whole_.n_nodes() && fields.v.size() == whole_.n_nodes(),
+                 fields.u.size(), fields.v.size(), whole_.n_nodes());
+    fields_ = std::move(fields);
+  }
 
   /// As FinePart::respond().
   void respond(std::span<const Vec2> multiplier, std::span<Vec2> travel);

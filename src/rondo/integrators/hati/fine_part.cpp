@@ -48,6 +48,12 @@ FinePart::FinePart(const Model& whole, const PartFields& start)
       rate_(model_.stiffness_damping > 0.0 ? model_.n_nodes() : 0),
       nowhere_(model_.n_nodes()),
       travel_(interface_.size()) {
+  RONDO_DEMAND(ratio_ >= 1 && model_.mass.size() == model_.n_nodes() &&
+                   start.u.size() == model_.n_nodes() &&
+                   model_.stiffness.row_start.size() == model_.n_nodes() + 1,
+               ratio_, model_.mass.size(), start.u.size(), model_.n_nodes());
+  RONDO_ASSERT(std::ranges::includes(model_.free, interface_), model_.free.size(),
+               interface_.size());  // both ascending
   for_free_nodes(model_, [&](std::size_t k) {
     fields_.u.plane()[k] = start.u.plane()[k];
     fields_.v.plane()[k] = start.v.plane()[k];
@@ -55,11 +61,14 @@ FinePart::FinePart(const Model& whole, const PartFields& start)
 }
 
 void FinePart::set(PartFields fields, GeneralContact::KeptImpulses impulses) {
+  RONDO_DEMAND(fields.u.size() == model_.n_nodes() && fields.v.size() == model_.n_nodes(),
+               fields.u.size(), fields.v.size(), model_.n_nodes());
   fields_ = std::move(fields);
   kept_ = std::move(impulses);
 }
 
 void FinePart::attempt(long long n, std::span<const Vec2> multiplier) {
+  RONDO_ASSERT(n >= 1, n);
   state_.u = fields_.u;
   state_.v = fields_.v;
   contact_.set_impulses(kept_);
@@ -97,6 +106,7 @@ void FinePart::move_half() noexcept {
 }
 
 void FinePart::find_forces(std::span<const Vec2> multiplier) noexcept {
+  RONDO_ASSERT(multiplier.size() == interface_.size(), multiplier.size(), interface_.size());
   apply(model_.stiffness, state_.u, force_, model_.threads);
   if (!rate_.empty()) {
     apply(model_.stiffness, state_.v, rate_, model_.threads);
@@ -128,6 +138,7 @@ void FinePart::solve_contacts(const BodyFrames& frames, FineContact& found) {
 
 /// δ v̄ of the interface.
 void FinePart::add_travel(std::span<Vec2> travel) const noexcept {
+  RONDO_ASSERT(travel.size() == interface_.size(), travel.size(), interface_.size());
   const double half = 0.5 * model_.dt;
   const std::span v = state_.v.plane(), v_next = state_.v_next.plane();
   for (std::size_t i = 0; i < interface_.size(); ++i) {

@@ -107,6 +107,7 @@ StepReport HatiIntegrator::step() noexcept {
 }
 
 void HatiIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
+  RONDO_DEMAND(!reports.empty());
   for (StepReport& report : reports) report = step();
   if (!last) return;
   last->step = step_;
@@ -128,6 +129,7 @@ void HatiIntegrator::fill_velocity(Field& v) const noexcept {
   for (const int node : parts_.fine.free) {
     const std::size_t k = at(node);
     const double a = parts_.fine.mass[k], b = parts_.coarse.mass[k];
+    RONDO_ASSERT(a > 0.0 && b >= 0.0, k, a, b);
     v.plane()[k] = b == 0.0 ? fine_.fields().v.plane()[k]
                             : (a * fine_.fields().v.plane()[k] + b * v.plane()[k]) / (a + b);
   }

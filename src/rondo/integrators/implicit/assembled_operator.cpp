@@ -12,6 +12,8 @@ fem::BlockCsr part_of(const fem::BlockCsr& k, const NodeSet& nodes) {
   std::vector<int> place(k.n_rows(), -1);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     place[static_cast<std::size_t>(nodes.node[i])] = static_cast<int>(i);
+  RONDO_DEMAND(nodes.sectors == 0 && nodes.mass.size() == nodes.size(), nodes.sectors,
+               nodes.mass.size());  // no places of no node
   fem::BlockCsr part;
   part.row_start.push_back(0);
   for (const int node : nodes.node) {
@@ -50,8 +52,12 @@ class Assembled final : public ImplicitOperator {
     factor_ = BlockLu(matrix);
   }
 
-  void solve(PlaneField& x) noexcept override { factor_.solve(x.x, x.y); }
+  void solve(PlaneField& x) noexcept override {
+    RONDO_ASSERT(x.size() == factor_.size(), x.size(), factor_.size());
+    factor_.solve(x.x, x.y);
+  }
   void product(const PlaneField& v, PlaneField& out) noexcept override {
+    RONDO_ASSERT(v.size() == stiffness_.n_rows() && out.size() == v.size(), v.size(), out.size());
     for (std::size_t row = 0; row < v.size(); ++row) {
       Vec2 sum;
       for (auto at = stiffness_.row_start[row]; at < stiffness_.row_start[row + 1]; ++at) {
@@ -79,6 +85,7 @@ NodeSet node_set(const Model& model, std::span<const int> nodes) {
   set.turn.assign(n, {1.0, 0.0});
   for (std::size_t i = 0; i < n; ++i) {
     const auto node = static_cast<std::size_t>(set.node[i]);
+    RONDO_ASSERT(node < model.n_nodes(), set.node[i], model.n_nodes());
     set.mass.push_back(model.mass[node]);
     set.reference.put(i, model.reference[node]);
   }
@@ -91,6 +98,9 @@ double factored_spin(const Model& model) noexcept {
 
 std::unique_ptr<ImplicitOperator> assembled_operator(const Model& model, const NodeSet& nodes,
                                                      double spin) {
+  RONDO_DEMAND(
+      model.implicit && model.dt > 0.0 && model.implicit->stiffness.n_rows() == model.n_nodes(),
+      model.implicit.has_value(), model.dt, model.n_nodes());
   return std::make_unique<Assembled>(model, nodes, spin);
 }
 

@@ -27,12 +27,14 @@ constexpr void take_away(Block& from, const Block& b) noexcept {
 
 Block inverse_of(const Block& a) noexcept {
   const double det = a[0] * a[3] - a[2] * a[1];
+  RONDO_ASSERT(!(det <= 0.0), det);  // the symmetric part is positive definite
   return {a[3] / det, -a[1] / det, -a[2] / det, a[0] / det};
 }
 
 }  // namespace
 
 BlockLu::BlockLu(const fem::BlockCsr& a) : work_(a.n_rows()) {
+  RONDO_DEMAND(a.column.size() == a.values.size(), a.column.size(), a.values.size());
   order(a);
   find_pattern(a);
   take_values(a);
@@ -84,7 +86,9 @@ void BlockLu::find_pattern(const fem::BlockCsr& a) {
 
 std::size_t BlockLu::find(std::size_t column, int row) const noexcept {
   const auto begin = row_.begin() + start_[column], end = row_.begin() + start_[column + 1];
-  return static_cast<std::size_t>(std::lower_bound(begin, end, row) - row_.begin());
+  const auto found = std::lower_bound(begin, end, row);
+  RONDO_ASSERT(found != end && *found == row, column, row);  // the pattern is symmetric
+  return static_cast<std::size_t>(found - row_.begin());
 }
 
 void BlockLu::take_values(const fem::BlockCsr& a) {
@@ -119,6 +123,7 @@ void BlockLu::eliminate(std::size_t k) {
 
 void BlockLu::solve(std::span<double> x, std::span<double> y) noexcept {
   const std::size_t n = size();
+  RONDO_ASSERT(x.size() == n && y.size() == n, x.size(), y.size(), n);
   for (std::size_t k = 0; k < n; ++k) {
     const auto of = static_cast<std::size_t>(of_[k]);
     work_[k] = {x[of], y[of]};

@@ -19,9 +19,12 @@ RingRows::RingRows(int rows, int sectors)
       sectors_(sectors),
       lead_((sectors + lanes - 1) / lanes * lanes),
       stride_(3 * lead_ + lanes),
-      values_(static_cast<std::size_t>(rows * stride_ + lead_)) {}
+      values_(static_cast<std::size_t>(rows * stride_ + lead_)) {
+  RONDO_DEMAND(rows > 0 && sectors > 0, rows, sectors);
+}
 
 void RingRows::wrap(int by) noexcept {
+  RONDO_ASSERT(by >= 0 && by <= sectors_, by, sectors_);
   for (int i = 0; i < rows_; ++i) {
     std::copy_n(row(i) + sectors_ - by, by, row(i) - by);
     std::copy_n(row(i), by, row(i) + sectors_);
@@ -34,6 +37,9 @@ Circulant::Circulant(int sectors, const RingBlocks& blocks, RingProduct product)
       product_(product),
       work_(rows_, sectors) {
   RONDO_DEMAND(sectors >= 3, sectors);
+  RONDO_DEMAND(product && blocks.left.rows() == rows_ && blocks.right.rows() == rows_ &&
+                   blocks.here.cols() == rows_,
+               rows_, blocks.left.rows(), blocks.right.rows(), blocks.here.cols());
   Eigen::MatrixXd left = blocks.left, here = blocks.here, right = blocks.right;
   constexpr double round_off = 1e-17;  // of a coupling: what it does is below that of a number
   constexpr int most_levels = 60;
@@ -50,6 +56,7 @@ Circulant::Circulant(int sectors, const RingBlocks& blocks, RingProduct product)
 }
 
 void Circulant::solve(RingRows& x) noexcept {
+  RONDO_ASSERT(x.stride() == work_.stride(), x.stride(), work_.stride());
   RingRows *from = &x, *to = &work_;
   for (const Level& level : levels_) {
     from->wrap(level.shift);

@@ -24,7 +24,7 @@ class RingRows {
     return values_.data() + lead_ + i * stride_;
   }
   [[nodiscard]] std::ptrdiff_t stride() const noexcept { return stride_; }
-  /// So many sectors before and after each row, from its own. @pre 0 <= by <= sectors
+  /// So many sectors before and after each row, from its own
   void wrap(int by) noexcept;
 
  private:

@@ -21,6 +21,12 @@ double largest_of(const Block& a) noexcept {
 
 ImplicitContact::ImplicitContact(const Model& model, const NodeSet& nodes)
     : model_(model), nodes_(nodes), is_held_(model.contact->nodes.size()), unit_(nodes.size()) {
+  RONDO_DEMAND(
+      nodes.turn.size() == nodes.size() &&
+          (nodes.sectors == 0 || (nodes.row_size > 0 && nodes.size() % nodes.row_size == 0)),
+      nodes.turn.size(), nodes.size(), nodes.sectors, nodes.row_size);
+  RONDO_DEMAND(model.contact->tributary.size() == model.contact->nodes.size(),
+               model.contact->tributary.size(), model.contact->nodes.size());
   std::vector<int> candidate(model.n_nodes(), -1);
   const std::vector<int>& of = model.contact->nodes;
   for (std::size_t k = 0; k < of.size(); ++k)
@@ -63,6 +69,7 @@ Block ImplicitContact::response(std::size_t to, std::size_t from) const noexcept
     at = i / size * size + (i % size + n - j % size) % n;
   }
   const auto& column = columns_[ring ? j / nodes_.row_size : from];
+  RONDO_ASSERT(at < column[0].size(), at, column[0].size());  // by fill_column()
   const Block local = {column[0].x[at], column[1].x[at], column[0].y[at], column[1].y[at]};
   return contact::in_frames(nodes_.turn[i], local, nodes_.turn[j]);
 }
@@ -141,6 +148,9 @@ Vec2 ImplicitContact::warm_start(std::uint64_t key) const noexcept {
 }
 
 void ImplicitContact::solve(const ContactStep& step, const PlaneField& free, PlaneField& impulse) {
+  RONDO_ASSERT(problem_.free.size() == rows_.size() && impulse_.size() == rows_.size() &&
+                   free.size() == nodes_.size(),
+               problem_.free.size(), impulse_.size(), rows_.size());  // by find()
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     const std::size_t place = candidates_[rows_[j].of].place;
     const Vec2 velocity = nodes_.turn[place] * free.at(place);

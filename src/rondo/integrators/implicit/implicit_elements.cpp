@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -38,6 +40,9 @@ ImplicitElements::ImplicitElements(const Model& model, NodeSet nodes,
       next_(nodes_.size()),
       free_(nodes_.size()),
       product_(nodes_.size()) {
+  RONDO_DEMAND(implicit_ && nodes_.mass.size() == nodes_.size() &&
+                   nodes_.turn.size() == nodes_.size() && model.dt > 0.0,
+               nodes_.mass.size(), nodes_.turn.size(), nodes_.size(), model.dt);
   if (any_candidate(model, nodes_)) contact_.emplace(model_, nodes_);
 }
 
@@ -95,6 +100,8 @@ ImplicitEnergy ImplicitElements::energy() noexcept {
 
 ImplicitEnergy ImplicitElements::solve(double spin, const ContactStep* step, PlaneField& v,
                                        ContactReport& report) {
+  RONDO_ASSERT(v.size() == nodes_.size() && u_.size() == v.size() && before_.size() == v.size(),
+               v.size(), nodes_.size());
   find_right_side(spin, v);
   const bool touching = contact_ && step && contact_->find(*step, u_, before_, *implicit_);
   const double off = model_.dt * (spin - factored_);

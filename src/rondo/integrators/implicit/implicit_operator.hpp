@@ -29,7 +29,7 @@ class ImplicitOperator {
 /// Spin at which A is factored: that of t = 0                                          [rad/s]
 [[nodiscard]] double factored_spin(const Model& model) noexcept;
 
-/// Assembled, of the nodes in `nodes`, Cartesian components. @pre model.implicit
+/// Assembled, of the nodes in `nodes`, Cartesian components
 /// @param spin s of A                                                                  [rad/s]
 [[nodiscard]] std::unique_ptr<ImplicitOperator> assembled_operator(const Model& model,
                                                                    const NodeSet& nodes,

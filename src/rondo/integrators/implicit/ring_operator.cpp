@@ -105,6 +105,7 @@ class Ring final : public ImplicitOperator {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
   void take(const PlaneField& x) noexcept {
+    RONDO_ASSERT(x.size() == static_cast<std::size_t>(n_rows_) * row_size_, x.size(), n_rows_);
     for (int a = 0; a < n_rows_; ++a) {
       const std::size_t from = static_cast<std::size_t>(a) * row_size_;
       std::copy_n(x.x.data() + from, sectors_, in_.row(a));
@@ -130,6 +131,7 @@ class Ring final : public ImplicitOperator {
 }  // namespace
 
 NodeSet ring_nodes(const Model& model, std::span<const int> nodes) {
+  RONDO_DEMAND(model.sector.has_value(), nodes.size());
   const fem::SectorStiffness& k = *model.sector;
   NodeSet set;
   set.sectors = k.n_sectors;
@@ -158,6 +160,9 @@ NodeSet ring_nodes(const Model& model, std::span<const int> nodes) {
 
 std::unique_ptr<ImplicitOperator> ring_operator(const Model& model, const NodeSet& nodes,
                                                 double spin, RingProduct product) {
+  RONDO_DEMAND(model.implicit && model.sector && nodes.sectors == model.sector->n_sectors &&
+                   nodes.size() > 0 && nodes.size() % nodes.row_size == 0,
+               nodes.sectors, nodes.size(), nodes.row_size);
   return std::make_unique<Ring>(model, nodes, blocks_of(model, nodes), spin, product);
 }
 

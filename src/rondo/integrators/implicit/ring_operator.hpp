@@ -9,7 +9,6 @@
 namespace rondo::dynamics {
 
 /// Rows of one local node each, over the sectors. @param nodes (n) every sector's, ascending
-/// @pre model.sector
 [[nodiscard]] NodeSet ring_nodes(const Model& model, std::span<const int> nodes);
 
 /// Operator of the nodes by parallel cyclic reduction (circulant.hpp). @param spin s of A [rad/s]

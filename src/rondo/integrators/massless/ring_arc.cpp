@@ -84,6 +84,7 @@ RingArc::RingArc(const Model& model, RingProduct product)
       load_(2, model.sector->n_sectors),
       is_candidate_(n_) {
   RONDO_DEMAND(row_ >= 0);
+  RONDO_DEMAND(product && model.dt > 0.0 && !has_friction_law(model), n_, model.dt);
   for (std::size_t k = 0; k < n_; ++k) {
     const int j = model.contact->nodes[k] / model.sector->nodes_per_sector;
     candidate_[at(j)] = static_cast<int>(k);
@@ -103,6 +104,7 @@ void RingArc::read_blocks(const Model& model) {
     if (column != row_ && std::ranges::find(around_rows_, column) == around_rows_.end())
       around_rows_.push_back(column);
   });
+  RONDO_DEMAND(!around_rows_.empty(), row_);  // the ring is joined to nodes with mass
   const auto n = static_cast<Eigen::Index>(around_rows_.size());
   around_left_ = around_here_ = around_right_ = Circulant::Matrix::Zero(2, 2 * n);
   for_entries(k, row_, [&](int column, int shift, const Block& block) {
@@ -193,6 +195,7 @@ bool RingArc::find_candidates(const ContactStep& step, const RingContacts& now) 
 
 /// The shortest arc with all candidates, and some beside them. False: it closes on itself.
 bool RingArc::cut_arc() {
+  RONDO_ASSERT(!candidates_.empty() && std::ranges::is_sorted(candidates_), candidates_.size());
   std::size_t longest = 0, begin = 0;
   for (std::size_t k = 0; k < candidates_.size(); ++k) {
     const std::size_t before = k > 0 ? k - 1 : candidates_.size() - 1;
@@ -304,6 +307,8 @@ void RingArc::give(const ContactStep& step, RingContacts& next) const {
 
 bool RingArc::solve(const ContactStep& step, const PlaneField& place, const RingContacts& now,
                     Solution solution) {
+  RONDO_ASSERT(place.size() >= n_ && solution.place.size() >= n_, place.size(),
+               solution.place.size(), n_);
   RingContacts& next = solution.contacts;
   next.contacts.clear();
   next.iterations = next.extensions = 0;

@@ -31,6 +31,9 @@ MasslessContact::MasslessContact(const Model& model)
       lag_(model.stiffness_damping / model.dt) {
   RONDO_DEMAND(has_massless_contact(model) && !model.stiffness.row_start.empty());
   RONDO_DEMAND(matrix_.is_positive_definite());
+  RONDO_DEMAND(model.dt > 0.0 && !has_friction_law(model) &&
+                   model.contact->tributary.size() == nodes().size(),
+               model.dt, model.contact->tributary.size(), nodes().size());
   const std::size_t nc = nodes().size(), ni = neighbours().size();
   motion_ = {std::vector<Vec2>(nc + ni), std::vector<Vec2>(ni), std::vector<Vec2>(nc)};
   star_.resize(nc + ni);
@@ -66,6 +69,7 @@ void MasslessContact::move_ring(std::span<const RingContact> by, std::span<Vec2>
 }
 
 Vec2 MasslessContact::place_after(std::size_t i, Vec2 change) const noexcept {
+  RONDO_ASSERT(step_ && i < nodes().size(), i, nodes().size());
   const Vec2 reference = model_.reference[at(nodes()[i])];
   return center_next_ + step_->rotation_next * (reference + motion_.place[i] + usual_[i] + change);
 }
@@ -208,6 +212,9 @@ void MasslessContact::finish() {
 }
 
 void MasslessContact::solve(const ContactStep& step) {
+  RONDO_ASSERT(motion_.place.size() == star_.size() && motion_.before.size() == nodes().size() &&
+                   step.dt == model_.dt,
+               motion_.place.size(), star_.size(), motion_.before.size(), step.dt);
   step_ = &step;
   center_next_ = step.center + step.dt * step.center_rate;
   std::swap(now_, next_);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
@@ -41,6 +42,8 @@ RingMatrix::RingMatrix(const fem::BlockCsr& k, std::span<const int> nodes)
       work_(2 * nodes.size()),
       unit_(nodes.size()),
       slot_(nodes.size(), -1) {
+  RONDO_DEMAND(k.column.size() == k.values.size() && nodes.size() <= k.n_rows(), k.column.size(),
+               k.values.size(), nodes.size(), k.n_rows());
   take_rows(k);
   factorise(k);
   const std::size_t column = std::max<std::size_t>(nodes.size(), 1) * sizeof(contact::Block);
@@ -95,6 +98,8 @@ void RingMatrix::factorise(const fem::BlockCsr& k) {
 }
 
 void RingMatrix::product(std::span<const Vec2> u, std::span<Vec2> out) const noexcept {
+  RONDO_ASSERT(u.size() == nodes_.size() + neighbours_.size() && out.size() == nodes_.size(),
+               u.size(), out.size(), nodes_.size(), neighbours_.size());
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     Vec2 sum = times(held_[i], u[i]);
     for (int b = row_start_[i]; b < row_start_[i + 1]; ++b)
@@ -104,6 +109,7 @@ void RingMatrix::product(std::span<const Vec2> u, std::span<Vec2> out) const noe
 }
 
 void RingMatrix::solve(std::span<Vec2> x) noexcept {
+  RONDO_ASSERT(positive_definite_ && x.size() == nodes_.size(), x.size(), nodes_.size());
   double* y = work_.data();
   const int n = static_cast<int>(permutation_.size());
   for (int i = 0; i < n; i += 2) {
@@ -140,6 +146,7 @@ std::size_t RingMatrix::slot_for_new_column() {
 }
 
 std::span<const contact::Block> RingMatrix::inverse_column(int j) {
+  RONDO_ASSERT(positive_definite_ && j >= 0 && at(j) < nodes_.size(), j, nodes_.size());
   if (slot_[at(j)] < 0) {
     const std::size_t slot = slot_for_new_column();
     slot_[at(j)] = static_cast<int>(slot);

@@ -55,6 +55,7 @@ ContactReport MasslessContact::report(const ContactStep& step, Vec2 center,
   report_solution(now_, report);
   for (const RingContact& c : now_.contacts) {
     const std::size_t i = static_cast<std::size_t>(c.node);
+    RONDO_ASSERT(i < nodes().size(), c.node, nodes().size());
     const Vec2 arm = model_.reference[static_cast<std::size_t>(nodes()[i])] + motion_.place[i];
     ActiveContact a = active_of(c);
     a.before = to_frame(c.normal, velocity_before(step, arm, motion_.before[i]));

@@ -3,6 +3,8 @@
 
 #include <span>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 
 ContactReport solve_solid_contacts(const Model& model, const SolidContactStep& step,
@@ -12,6 +14,9 @@ ContactReport solve_solid_contacts(const Model& model, const SolidContactStep& s
   ContactReport report;
   active.clear();
   if (!model.contact) return report;
+  RONDO_ASSERT(u.size() == model.n_nodes() && v.size() == model.n_nodes() &&
+                   next.size() == model.n_nodes() && model.solid,
+               u.size(), v.size(), next.size(), model.n_nodes());
   const ContactModel& contact = *model.contact;
   for (std::size_t candidate = 0; candidate < contact.nodes.size(); ++candidate) {
     const auto k = static_cast<std::size_t>(contact.nodes[candidate]);

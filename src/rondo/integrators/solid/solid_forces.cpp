@@ -12,11 +12,13 @@ namespace rondo::dynamics {
 SolidForces::SolidForces(const Model& model, std::span<const Vec3> u)
     : model_(model), now_(model.n_nodes()), before_(model.n_nodes()) {
   RONDO_DEMAND(model.solid && model.solid->axial.size() == model.n_nodes());
+  RONDO_DEMAND(u.size() == model.n_nodes(), u.size(), model.n_nodes());
   if (!model.solid->pressures.empty()) load_.resize(model.n_nodes());
   fem::apply(model.solid->sector, u, now_);
 }
 
 void SolidForces::evaluate(std::span<const Vec3> u, double time) noexcept {
+  RONDO_ASSERT(u.size() == now_.size(), u.size(), now_.size());
   std::swap(now_, before_);
   fem::apply(model_.solid->sector, u, now_);
   if (!load_.empty()) solid_pressure_forces(model_, time, load_);
@@ -25,7 +27,9 @@ void SolidForces::evaluate(std::span<const Vec3> u, double time) noexcept {
 void solid_pressure_forces(const Model& model, double time, std::span<Vec3> load) noexcept {
   const fem::SolidSector& k = model.solid->sector;
   std::ranges::fill(load, Vec3{});
+  RONDO_ASSERT(load.size() == model.n_nodes(), load.size(), model.n_nodes());
   for (const SolidPressure& p : model.solid->pressures) {
+    RONDO_ASSERT(p.force.size() == k.n_local(), p.force.size(), k.n_local());
     const double pressure = p.pressure.at(time);
     for (std::size_t j = 0; j < k.turn.size(); ++j)
       for (std::size_t a = 0; a < k.n_local(); ++a)

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/core/vec3.hpp"
 #include "rondo/model/model.hpp"
 
@@ -31,7 +32,10 @@ class SolidForces {
 
   /// K u_{n+1}: what another one goes on with.
   [[nodiscard]] const std::vector<Vec3>& saved() const noexcept { return now_; }
-  void restore(std::span<const Vec3> saved) { now_.assign(saved.begin(), saved.end()); }
+  void restore(std::span<const Vec3> saved) {
+    RONDO_DEMAND(saved.size() == model_.n_nodes(), saved.size(), model_.n_nodes());
+    now_.assign(saved.begin(), saved.end());
+  }
 
  private:
   const Model& model_;

@@ -17,6 +17,8 @@ SolidIntegrator::SolidIntegrator(const Model& model, const State& start)
       v_next_(to_vector(start.v_next.space())),
       forces_(model, u_) {
   RONDO_DEMAND(!model.rim && model.scheme == Scheme::symplectic);
+  RONDO_DEMAND(v_next_.size() == model.n_nodes() && model.dt > 0.0, v_next_.size(), model.n_nodes(),
+               model.dt);
   if (model.contact) active_.reserve(2 * model.contact->nodes.size());
 }
 
@@ -80,6 +82,7 @@ StepReport SolidIntegrator::step() noexcept {
 }
 
 void SolidIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
+  RONDO_DEMAND(!reports.empty());
   for (StepReport& report : reports) report = step();
   if (!last) return;
   last->step = step_;
@@ -111,6 +114,7 @@ SavedState SolidIntegrator::save() const {
 void SolidIntegrator::restore(const SavedState& saved) {
   RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.force.size() == model_.n_nodes(),
                saved.u.size(), saved.force.size());
+  RONDO_DEMAND(saved.v.size() == model_.n_nodes(), saved.v.size(), model_.n_nodes());
   step_ = saved.step;
   u_ = to_vector(saved.u.space());
   v_next_ = to_vector(saved.v.space());

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/integrators/solid/solid_forces.hpp"
 #include "rondo/integrators/solid/solid_rim.hpp"
@@ -64,6 +65,9 @@ void start_wheel(const Model& model, std::span<const Vec3> load, State& state) {
 }  // namespace
 
 void start_solid(const Model& model, State& state) {
+  RONDO_DEMAND(model.solid && state.u.size() == model.n_nodes() && state.u.components() == 3 &&
+                   state.v_next.size() == model.n_nodes(),
+               state.u.size(), state.u.components(), state.v_next.size(), model.n_nodes());
   const fem::SolidSector& stiffness = model.solid->sector;
   fem::apply(stiffness, state.u, state.force);
   fem::apply(stiffness, state.v, state.force_before);

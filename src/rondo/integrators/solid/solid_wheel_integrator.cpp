@@ -21,6 +21,8 @@ SolidWheelIntegrator::SolidWheelIntegrator(const Model& model, const State& star
       absolute_(model.n_nodes()),
       forces_(model, u_) {
   RONDO_DEMAND(model.rim && model.scheme == Scheme::symplectic);
+  RONDO_DEMAND(start.v_next.size() == model.n_nodes() && !start.rim.empty(), start.v_next.size(),
+               model.n_nodes(), start.rim.size());
   rim_.restore(start.step, start.rim);
   for_free_nodes(model, [&](std::size_t k) {
     next_[k] = u_[k] + model.dt * start.v_next.space()[k];
@@ -116,6 +118,7 @@ StepReport SolidWheelIntegrator::step() noexcept {
 }
 
 void SolidWheelIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
+  RONDO_DEMAND(!reports.empty());
   for (StepReport& report : reports) report = step();
   if (!last) return;
   last->step = step_;
@@ -151,6 +154,8 @@ SavedState SolidWheelIntegrator::save() const {
 void SolidWheelIntegrator::restore(const SavedState& saved) {
   RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.u_before.size() == model_.n_nodes(),
                saved.u.size(), saved.u_before.size());
+  RONDO_DEMAND(saved.v.size() == model_.n_nodes() && !saved.rim.empty(), saved.v.size(),
+               saved.rim.size());
   step_ = saved.step;
   next_ = to_vector(saved.u.space());
   u_ = to_vector(saved.u_before.space());

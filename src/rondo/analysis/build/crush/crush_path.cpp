@@ -18,11 +18,13 @@ CrushPath::CrushPath(const AnalysisCase& analysis)
 }
 
 double CrushPath::depth(int k) const noexcept {
+  RONDO_ASSERT(k >= 0 && k <= n_increments(), k, n_increments());
   if (is_of_tables()) return depth_.at(k);
   return depth_.at(0.0) * std::min(k, increments_) / increments_;
 }
 
 double CrushPath::slide(int k) const noexcept {
+  RONDO_ASSERT(k >= 0 && k <= n_increments(), k, n_increments());
   if (is_of_tables()) return slide_.at(k);
   return k <= increments_ ? 0.0 : slide_.at(0.0) * (k - increments_) / slide_increments_;
 }

@@ -61,6 +61,7 @@ std::size_t latin_memory(const Case& c, const CrushSetup& s, bool wide_rows) {
 }  // namespace
 
 std::size_t crush_memory(const Case& c, const CrushSetup& s) {
+  RONDO_DEMAND(c.ground && s.mesh.n_nodes() > 0, c.ground.has_value(), s.mesh.n_nodes());
   const std::size_t nodes = s.mesh.n_nodes();
   constexpr std::size_t columns_at_once = 32, copies = 3;  // loads, solution, within CHOLMOD
   const std::size_t fields = copies * columns_at_once * 2 * nodes;
@@ -85,6 +86,9 @@ CrushSetup build_crush(const Case& c) {
   s.free = fem::free_nodes(s.mesh);
   s.model =
       statics::make_crush_model(s.mesh.coordinates, s.mesh.boundary, law_of(*c.ground).friction);
+  RONDO_DEMAND(
+      s.mass.size() == s.mesh.n_nodes() && s.model.clearance.size() == s.mesh.boundary.size(),
+      s.mass.size(), s.mesh.n_nodes(), s.model.clearance.size(), s.mesh.boundary.size());
   s.ground_height = c.ground->shape.profile.front().y;
   const std::size_t first = static_cast<std::size_t>(s.mesh.boundary.front());
   s.touch_height = s.model.clearance.front() - s.mesh.coordinates[first].y;
@@ -98,6 +102,7 @@ CrushSetup build_crush(const Case& c) {
 }
 
 void condense(const Case& c, const CrushSetup& setup, statics::Condensation& body) {
+  RONDO_DEMAND(setup.reach > 0.0, setup.reach);  // by build_crush()
   if (body.factorised()) statics::append_within(setup.model, setup.reach, body);
   if (!body.factorised() || !body.compliance().allFinite())
     throw case_error(c, "material.youngs_modulus",

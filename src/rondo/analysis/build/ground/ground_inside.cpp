@@ -9,6 +9,7 @@
 #include <set>
 
 #include "rondo/contact/box_tree.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/mesh/edges.hpp"
 #include "rondo/mesh/locate.hpp"
@@ -77,6 +78,7 @@ PlacedCell place(const mesh::Cell& cell, std::span<const Vec2> x, std::span<cons
     out.corner[a] = x[at(cell[a])];
     out.size = std::min(out.size, size[at(cell[a])]);
   }
+  RONDO_ASSERT(out.size > 0.0, out.size, out.n);  // else the points of the ground were endless
   return out;
 }
 
@@ -98,6 +100,9 @@ std::vector<Vec2> points_in(const contact::Ground& ground, const PlacedCell& cel
 
 GroundInside find_ground_inside(const Setup& s, std::span<const Vec2> x,
                                 std::span<const double> size) {
+  RONDO_DEMAND(s.model.contact && !s.model.solid && x.size() == s.mesh.n_nodes() &&
+                   size.size() == s.mesh.n_nodes(),
+               s.model.contact.has_value(), x.size(), size.size(), s.mesh.n_nodes());
   constexpr double farthest = 1e60;  // beyond, boxes leave the range of the numbers
   if (!std::ranges::all_of(x, [](Vec2 place) { return norm(place) <= farthest; })) return {};
   GroundInside out;

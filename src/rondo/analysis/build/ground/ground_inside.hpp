@@ -20,7 +20,7 @@ struct GroundInside {
 /// and points a quarter of an element apart. Points that are nearer to another side of the body
 /// than to one that may touch do not count.
 /// @param x (n) places of the nodes, fixed frame [m] @param size (n) of element_sizes() [m]
-/// @pre the model is plane and has contact with the ground
+/// @pre the model is plane and has contact
 GroundInside find_ground_inside(const Setup& s, std::span<const Vec2> x,
                                 std::span<const double> size);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "rondo/analysis/build/bodies.hpp"
+#include "rondo/core/contract.hpp"
 
 namespace rondo::study {
 namespace {
@@ -118,6 +119,7 @@ std::string held_outside_contact(const Case& c, const Setup& s) {
 }
 
 void refuse_held_in_ground(const Case& c, const CrushSetup& s) {
+  RONDO_DEMAND(s.reach > 0.0, s.reach);  // by build_crush()
   double lowest = s.touch_height;
   for (const int node : s.mesh.clamped)
     lowest = std::min(lowest, s.touch_height + place_of(s.mesh, node).y);
@@ -127,6 +129,7 @@ void refuse_held_in_ground(const Case& c, const CrushSetup& s) {
 
 void refuse_held_in_ground(const Case& c, const mesh::Mesh& mesh) {
   if (c.analysis.load || mesh.clamped.empty()) return;
+  RONDO_DEMAND(c.ground && !c.ground->shape.profile.empty(), c.ground.has_value());
   const double height = c.motion.height.at(0.0) - c.ground->shape.profile.front().y;
   const double depth = reach_below(mesh, c.motion.camber) - height;
   if (depth > touching * extent_of(mesh)) refuse(c, mesh, depth, "");

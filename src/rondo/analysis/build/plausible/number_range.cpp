@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rondo/case/case_keys.hpp"
+#include "rondo/core/contract.hpp"
 
 namespace rondo::study {
 namespace {
@@ -56,6 +57,7 @@ std::string furthest_key(const Case& c) {
 
 void demand_harmonic_range(const Case& c, const std::vector<fem::Material>& materials,
                            std::span<const double> mass, double rate) {
+  RONDO_DEMAND(!materials.empty() && !mass.empty(), materials.size(), mass.size());
   bool fits = rate == 0.0 || is_within(rate * rate);
   fits &= c.damping.mass * rate <= most && c.damping.stiffness * rate <= most;
   for (const fem::Material& m : materials)

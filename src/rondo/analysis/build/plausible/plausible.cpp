@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "rondo/case/case_keys.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/fem/region_sizes.hpp"
 
 namespace rondo::study {
@@ -18,6 +19,7 @@ constexpr double earth_gravity = 9.81;  // m/s²
 
 double mass_of(const mesh::Mesh& mesh, const std::vector<fem::Material>& materials) {
   const std::vector<double> sizes = fem::region_sizes(mesh, materials.size());
+  RONDO_DEMAND(sizes.size() == materials.size(), sizes.size(), materials.size());
   double mass = 0.0;
   for (std::size_t k = 0; k < sizes.size(); ++k) mass += materials[k].density * sizes[k];
   return mass;
@@ -71,6 +73,7 @@ void warn_of_angle(const char* key, double angle, std::vector<std::string>& warn
 /// The tread lies to one side of the plane in which the wheel is held, turned and steered.
 void warn_of_section(const Case& c, const mesh::Mesh& mesh, std::vector<std::string>& warnings) {
   if (!c.section || mesh.boundary.empty()) return;
+  RONDO_DEMAND(mesh.axial.size() == mesh.n_nodes(), mesh.axial.size(), mesh.n_nodes());
   double left = std::numeric_limits<double>::infinity(), right = -left;
   for (const int node : mesh.boundary) {
     const double z = mesh.axial[static_cast<std::size_t>(node)];
@@ -108,6 +111,7 @@ std::string stays_above_ground(double height, double radius) {
 }
 
 std::string hardly_pressed(const std::string& key, double deflection, double radius) {
+  RONDO_DEMAND(radius > 0.0, radius, key);
   if (!(deflection > 0.0) || deflection >= least_deflection * radius) return {};
   return fmt::format(
       "{}: the body is pressed in by {:.3g} m, {:.2g} of its radius of {:.4g} m: hardly more than "

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rondo/contact/intrusion.hpp"
+#include "rondo/core/contract.hpp"
 
 namespace rondo::study {
 namespace {
@@ -58,6 +59,7 @@ InputError hidden_corner(const Case& c, const Setup& s, const contact::Intrusion
 }  // namespace
 
 void check_hidden_ground(const Case& c, Setup& s) {
+  RONDO_DEMAND(s.model.solid.has_value(), s.model.n_nodes());
   if (!s.model.contact || !(s.model.contact->ground.spacing() > 0.0)) return;
   const double spacing = s.model.contact->ground.spacing();
   const contact::Hidden hidden = contact::hidden_between_nodes(s.model.contact->ground, spacing);

@@ -8,7 +8,7 @@ namespace rondo::study {
 
 /// Adds a warning if the forces depend on where the nodes happen to be.
 /// @throws InputError: an obstacle, or a corner of one, may stand between the nodes
-/// @pre the model of a wheel in three dimensions is there
+/// @pre model.solid
 void check_hidden_ground(const Case& c, Setup& s);
 
 }  // namespace rondo::study

@@ -10,6 +10,7 @@
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/solid/hidden_ground.hpp"
 #include "rondo/case/case_keys.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/mesh/edges.hpp"
@@ -70,6 +71,11 @@ void make_solid_model(const Case& c, Setup& s) {
   dynamics::SolidBody& body = model.solid.emplace();
   body.axial = s.mesh.axial;
   body.sector = fem::assemble_solid_sector(s.mesh, s.materials);
+  RONDO_DEMAND(model.mass.size() == model.n_nodes() && body.axial.size() == model.n_nodes() &&
+                   body.sector.n_local() * static_cast<std::size_t>(body.sector.n_sectors) ==
+                       model.free.size(),
+               model.mass.size(), body.axial.size(), model.n_nodes(), body.sector.n_local(),
+               body.sector.n_sectors, model.free.size());
   add_solid_pressures(c, s.mesh, body);
 }
 
@@ -109,6 +115,7 @@ std::string range_text(const dynamics::Table& table) {
 }  // namespace
 
 void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidBody& body) {
+  RONDO_DEMAND(body.sector.n_local() > 0 && mesh.is_solid(), body.sector.n_local());
   for (std::size_t k = 0; k < c.pressures.size(); ++k) {
     const std::string key = item_of("load.pressure", k) + ".curve";
     const mesh::Surface& surface = surface_of(c, mesh, key, c.pressures[k].curve);
@@ -119,6 +126,7 @@ void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidB
 }
 
 void make_solid_body(const Case& c, int threads, Setup& s) {
+  RONDO_DEMAND(s.mesh.is_solid() && !s.materials.empty(), s.mesh.n_nodes(), s.materials.size());
   make_solid_model(c, s);
   check_hidden_ground(c, s);
   choose_threads(s, threads);
@@ -130,6 +138,7 @@ std::vector<Vec2> solid_positions(const Setup& s) {
   const GroundFrame ground(m.motion.camber);
   const Vec3 center = m.motion.center(0.0);
   const std::span<const Vec3> u = s.displacement.space();
+  RONDO_DEMAND(m.solid && u.size() == m.n_nodes(), u.size(), m.n_nodes());
   std::vector<Vec2> x;
   for (std::size_t k = 0; k < u.size(); ++k)
     x.push_back(
@@ -138,11 +147,13 @@ std::vector<Vec2> solid_positions(const Setup& s) {
 }
 
 double width_of(const mesh::Mesh& mesh) {
+  RONDO_DEMAND(mesh.is_solid(), mesh.n_nodes());
   const auto [left, right] = std::ranges::minmax(mesh.axial);
   return right - left;
 }
 
 void tell_solid_figures(const Case& c, Setup& s) {
+  RONDO_DEMAND(s.model.solid.has_value(), s.mesh.n_sectors);
   const std::size_t local = s.model.solid->sector.n_local();
   s.figures.emplace_back("wheel", fmt::format("{} sectors of {} dofs, {:.6g} m wide",
                                               s.mesh.n_sectors, 3 * local, width_of(s.mesh)));

@@ -9,6 +9,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/elements/parts.hpp"
 #include "rondo/case/solid/wheel_of.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::study {
@@ -18,6 +19,8 @@ namespace {
 void set_regions(const Case& c, mesh::Mesh& section) {
   if (c.regions.empty()) return;
   const std::size_t across = at(c.wheel.axial), layers = section.cells.size() / across;
+  RONDO_DEMAND(layers * across == section.cells.size() && section.region.empty(), across,
+               section.cells.size(), section.region.size());
   const std::vector<int> of_layer = regions_of_layers(c, static_cast<int>(layers), section);
   for (std::size_t e = 0; e < section.cells.size(); ++e)
     section.region.push_back(of_layer[e / across]);
@@ -89,6 +92,7 @@ mesh::Mesh revolve_file(const Case& c, std::vector<std::string>* warnings) {
 }  // namespace
 
 mesh::Mesh build_wheel(const Case& c, std::vector<std::string>* warnings) {
+  RONDO_DEMAND(is_solid(c), c.file.string());
   return c.section ? revolve_file(c, warnings) : generate(c);
 }
 

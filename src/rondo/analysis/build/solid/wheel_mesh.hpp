@@ -9,7 +9,7 @@
 
 namespace rondo::study {
 
-/// @param warnings of the reader, added for the user; may be null. @pre is_solid(c)
+/// @param warnings of the reader, added for the user; may be null
 /// @throws InputError: what build_mesh() refuses; a section with triangles, with nodes at the axle
 /// or beyond, or with a part that nothing holds
 mesh::Mesh build_wheel(const Case& c, std::vector<std::string>* warnings);

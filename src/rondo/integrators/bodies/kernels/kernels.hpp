@@ -6,6 +6,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "rondo/integrators/fused/kernels/kernels.hpp"
 
@@ -77,6 +78,11 @@ struct BodyBlock {
   const StepFactors* step;  ///< factors of the step in the group's frame
   double* sums;             ///< sums of one of the enumerations above, by lanes: set
 };
+
+static_assert(std::is_trivial_v<BodyFields> && std::is_trivial_v<BodyBlock> &&
+              std::is_trivially_copyable_v<GroupPose> &&
+              std::is_trivially_copyable_v<GroupTurning>);
+static_assert(move_fastest + 1 == n_move_sums);  // no sum: the others are added up before it
 
 /// The passes of one instruction set, in their order in a step.
 struct BodyTable {

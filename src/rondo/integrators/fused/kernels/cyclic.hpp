@@ -14,6 +14,8 @@ using rondo::dynamics::kernels::MirrorBlock;
 using rondo::dynamics::kernels::most_rows;
 using rondo::dynamics::kernels::n_sums;
 
+static_assert(strip_packs <= group_packs && block_packs <= group_packs && group_packs <= 4);
+
 /// K u of a group of packs, row by row.
 using Forces = Vectors[most_rows][group_packs];
 

@@ -5,6 +5,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "rondo/integrators/implicit/ring_terms.hpp"
 
@@ -67,6 +68,8 @@ enum RubberWheelSum {
   n_rubber_wheel_sums
 };
 inline constexpr int most_sums = n_rubber_wheel_sums;
+static_assert(int{n_sums} <= most_sums && int{n_rubber_sums} <= most_sums &&
+              int{n_wheel_sums} <= most_sums);
 
 /// The factors that all nodes of a step on a loaded rim share, for forces and velocities.
 struct WheelFactors {
@@ -226,6 +229,15 @@ struct Table {
   const RubberTable* rubber;
   const SolidTable* solid;
 };
+
+/// No constructors that the linker could take from a file compiled for another machine.
+static_assert(std::is_trivial_v<WheelFactors> && std::is_trivial_v<WheelWay> &&
+              std::is_trivial_v<StepFactors> && std::is_trivially_copyable_v<Terms>);
+static_assert(std::is_trivial_v<CyclicEntry> && std::is_trivial_v<MirrorRow> &&
+              std::is_trivially_copyable_v<CyclicRow> && std::is_trivial_v<CyclicStrip> &&
+              std::is_trivial_v<CyclicHeight> && std::is_trivial_v<SparseRows>);
+static_assert(std::is_trivial_v<RingTerms> && std::is_trivial_v<Table>);
+static_assert(sizeof(MirrorRow) == 18 * sizeof(double));  // as MirrorBlock: no gaps are read
 
 /// In files of their own, as the loops of a loaded rim.
 void avx512_ring_product(const RingTerms& terms) noexcept;

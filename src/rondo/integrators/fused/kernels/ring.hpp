@@ -6,6 +6,7 @@
 namespace {
 
 using rondo::dynamics::RingTerms;
+static_assert(rondo::dynamics::kernels::lanes - 1 <= 7);  // rows hold seven numbers more
 
 /// Product for a pack of sectors, all rows at once: each number is read once.
 template <int Rows>

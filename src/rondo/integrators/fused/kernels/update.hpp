@@ -8,6 +8,7 @@
 namespace {
 
 using rondo::dynamics::kernels::StepFactors;
+static_assert(sizeof(Pack) == rondo::dynamics::kernels::lanes * sizeof(double));
 
 /// Plane vectors, or complex numbers, of eight nodes.
 struct Vectors {

@@ -22,6 +22,9 @@ std::size_t place_of(const SparsePlan& plan, std::size_t row, int load) {
 }  // namespace
 
 FollowingLoads::FollowingLoads(const Model& model, const SparsePlan& plan) {
+  RONDO_DEMAND(
+      plan.row_of_node.size() == model.n_nodes() && plan.first_load.size() == plan.n_packs + 1,
+      plan.row_of_node.size(), model.n_nodes(), plan.first_load.size(), plan.n_packs);
   for (std::size_t l = 0; l < model.pressures.size(); ++l)
     for (const mesh::Edge& edge : model.pressures[l].edges) {
       const auto end = [&](int node) {

@@ -23,6 +23,8 @@ RubberForces::RubberForces(const Model& model, std::span<const int> row, int zer
       force_(plan_.n_packs * corners * lanes * 2 + 2),
       history_(plan_.n_history),
       sums_(plan_.blocks.size()) {
+  RONDO_DEMAND(u.size() == model.n_nodes() && row.size() == model.n_nodes(), u.size(), row.size(),
+               model.n_nodes());
   rows_ = {plan_.start.data(), plan_.corner.data(), force_.data()};
   relax(u);
 }
@@ -64,6 +66,7 @@ void RubberForces::relax(std::span<const Vec2> u) {
 }
 
 void RubberForces::evaluate(const double* now, std::size_t block) noexcept {
+  RONDO_ASSERT(block < plan_.blocks.size() && now, block, plan_.blocks.size());
   const RubberBlock& b = plan_.blocks[block];
   const fem::Rubber& rubber = model_.rubber->materials[b.material];
   const auto first = static_cast<std::size_t>(b.first_pack);
@@ -101,6 +104,7 @@ RubberEnergy RubberForces::energy() const noexcept {
 
 Vec2 RubberForces::force_on(int row) const noexcept {
   const auto r = static_cast<std::size_t>(row);
+  RONDO_ASSERT(r / lanes + 1 < plan_.start.size(), row, plan_.start.size());
   Vec2 force;
   for (std::int64_t place = rows_.start[r / lanes]; place < rows_.start[r / lanes + 1]; ++place) {
     const double* pair =

@@ -75,6 +75,8 @@ void add_packs(const RubberPart& rubber, std::span<const int> row, RubberPlan& p
 void add_branches(const Model& model, RubberPlan& plan) {
   for (const fem::Rubber& rubber : model.rubber->materials) {
     plan.branches.emplace_back();
+    RONDO_ASSERT(std::ranges::all_of(rubber.branches, [](const auto& b) { return b.time > 0.0; }),
+                 rubber.branches.size());
     for (const fem::ViscousBranch& b : rubber.branches)
       plan.branches.back().push_back(
           {b.relative_modulus * rubber.shear_modulus(), std::expm1(0.5 * model.dt / b.time)});
@@ -87,6 +89,7 @@ void add_geometry(const Model& model, std::span<const int> row, int zero, Rubber
   plan.node = LargeArrayOf<std::int32_t>(plan.n_packs * corners_of_element * lanes);
   for (std::size_t i = 0; i < plan.element.size(); ++i) {
     const mesh::Cell& cell = model.rubber->cells[static_cast<std::size_t>(plan.element[i])];
+    RONDO_ASSERT(mesh::n_corners(cell) == corners_of_element, plan.element[i]);
     rubber::Corners<double> x;
     for (std::size_t c = 0; c < corners_of_element; ++c) {
       const auto node = static_cast<std::size_t>(cell[c]);
@@ -152,8 +155,14 @@ RubberPlan make_rubber_plan(const Model& model, std::span<const int> row, int ze
                             std::size_t n_row_packs) {
   constexpr std::size_t most_elements = 1U << 27U;  // their corners are counted in 32 bits
   RONDO_DEMAND(model.rubber && model.rubber->cells.size() < most_elements);
+  RONDO_DEMAND(row.size() == model.n_nodes() && zero >= 0 && model.dt > 0.0 &&
+                   model.rubber->material.size() == model.rubber->cells.size(),
+               row.size(), model.n_nodes(), zero, model.dt, model.rubber->material.size());
   RubberPlan plan;
   add_packs(*model.rubber, row, plan);
+  RONDO_DEMAND(plan.element.size() == plan.n_packs * lanes &&
+                   plan.element.size() >= model.rubber->cells.size(),
+               plan.element.size(), plan.n_packs, model.rubber->cells.size());
   add_branches(model, plan);
   add_geometry(model, row, zero, plan);
   add_corners(*model.rubber, row, n_row_packs, plan);

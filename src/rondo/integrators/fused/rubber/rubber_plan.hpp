@@ -35,7 +35,7 @@ struct RubberPlan {
 };
 
 /// @param row (n) of each node of the model; -1: clamped, at `zero` then
-/// @param n_row_packs packs of rows. @pre model.rubber
+/// @param n_row_packs packs of rows
 [[nodiscard]] RubberPlan make_rubber_plan(const Model& model, std::span<const int> row, int zero,
                                           std::size_t n_row_packs);
 

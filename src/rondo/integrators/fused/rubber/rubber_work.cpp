@@ -8,6 +8,8 @@ namespace rondo::dynamics {
 
 /// U(u_0), and without a loaded rim ½Δt f_0·v_{1/2} more: where the first half step ends.
 RubberWork::RubberWork(const Model& model, const State& start) : model_(model) {
+  RONDO_DEMAND(start.force.size() == model.n_nodes() && start.v_next.size() == model.n_nodes(),
+               start.force.size(), start.v_next.size(), model.n_nodes());
   work_.add(make_internal_force(model, start.u, start.poses)->material().stored_energy);
   if (model.rim) return;
   for_free_nodes(model, [&](std::size_t k) {

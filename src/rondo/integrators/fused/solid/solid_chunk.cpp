@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 
 SolidChunk::SolidChunk(const Model& model, const SolidPlan& plan, const kernels::SolidTable& table,
@@ -17,6 +19,9 @@ SolidChunk::SolidChunk(const Model& model, const SolidPlan& plan, const kernels:
       contact_(model.contact ? static_cast<std::size_t>(plan.cut.depth) * range.n_groups : 0) {
   const int n = plan.n_sectors;
   const auto columns = static_cast<int>(plan.stride) - 2 * halo_columns;
+  RONDO_DEMAND(range.first >= 0 && range.columns > 0 && range.first + range.columns <= n &&
+                   range.columns <= columns && range.n_groups > 0,
+               range.first, range.columns, n, columns, range.n_groups);
   for (int c = -halo_columns; c < columns + halo_columns; ++c) {
     const int sector = ((range.first + c) % n + n) % n;
     const Complex turn = model.solid->sector.turn[static_cast<std::size_t>(sector)];
@@ -62,6 +67,7 @@ int SolidChunk::field_now() const noexcept {
 /// Force of the pressures on a node of a row, in its frame.
 Vec3 SolidChunk::load_on(const Work& work, int row) const noexcept {
   Vec3 load;
+  RONDO_ASSERT(plan_.loads.empty() || work.step->pressures, row, plan_.loads.size());
   for (std::size_t i = 0; i < plan_.loads.size(); ++i)
     load += work.step->pressures[i] * plan_.loads[i][static_cast<std::size_t>(row)];
   return load;
@@ -202,6 +208,8 @@ void SolidChunk::strip(const Work& work, int i) noexcept {
 
 void SolidChunk::pass(std::span<const StepContext> steps, PartialStep* parts,
                       std::size_t stride) noexcept {
+  RONDO_ASSERT(!steps.empty() && steps.size() <= static_cast<std::size_t>(plan_.cut.depth),
+               steps.size(), plan_.cut.depth);
   std::fill_n(sums_.data(), sums_.size(), 0.0);
   std::fill(contact_.begin(), contact_.end(), PartialStep{});
   active_.clear();

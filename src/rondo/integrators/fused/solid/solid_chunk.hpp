@@ -37,7 +37,7 @@ class SolidChunk {
   }
 
   /// Makes the steps; parts[i * stride + g] gets what group g of the ring gives in step i.
-  /// @pre at most plan.cut.depth steps, the halo taken.
+  /// @pre the halo is taken
   void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride) noexcept;
 
   /// Contacts of the last step of the last pass, this chunk's own.

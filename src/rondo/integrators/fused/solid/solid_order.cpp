@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -95,6 +97,9 @@ SolidSector in_order(const SolidSector& k, const std::vector<int>& order) {
 }  // namespace
 
 OrderedSector order_sector(const Model& model) {
+  RONDO_DEMAND(model.solid && model.solid->axial.size() == model.n_nodes() &&
+                   model.solid->sector.n_local() > 0,
+               model.solid.has_value(), model.n_nodes());
   const SolidSector& k = model.solid->sector;
   std::vector<int> order(k.n_local());
   std::iota(order.begin(), order.end(), 0);

@@ -16,7 +16,7 @@ struct OrderedSector {
   std::vector<int> was;  ///< (n_local) row of the model's sector
 };
 
-/// @pre model.solid is there.
+/// @pre model.solid
 OrderedSector order_sector(const Model& model);
 
 }  // namespace rondo::dynamics

@@ -67,6 +67,9 @@ void find_strips(SolidPlan& plan) {
     plan.strips.push_back(strip);
     a += static_cast<std::size_t>(strip.n_rows);
   }
+  RONDO_DEMAND(
+      !plan.strips.empty() && plan.strips.back().first + plan.strips.back().n_rows == plan.n_local,
+      plan.strips.size(), plan.n_local);  // every row in exactly one strip
 }
 
 void write_strips(SolidPlan& plan) {
@@ -128,6 +131,7 @@ void add_rows(const Model& model, SolidPlan& plan) {
   const SolidSector& k = plan.ordered.sector;
   for (std::size_t a = 0; a < k.n_local(); ++a) {
     const double mass = model.mass[k.node(a, 0)];
+    RONDO_ASSERT(mass > 0.0, a, mass);
     const Vec3 arm = plan.stiffness.arm[a];
     const Complex frame = plan.stiffness.frame[a];
     plan.rows.push_back({.at = static_cast<std::ptrdiff_t>(a) * plan.row_size(),
@@ -188,6 +192,9 @@ SolidPlan make_solid_plan(const Model& model, const SolidTuning& tuning) {
   plan.keeps_force = model.stiffness_damping > 0.0;
   plan.ordered = order_sector(model);
   plan.stiffness = solid_stiffness(model, plan.ordered.sector);
+  const auto n_free =
+      static_cast<std::size_t>(plan.n_local) * static_cast<std::size_t>(plan.n_sectors);
+  RONDO_DEMAND(n_free == model.free.size(), plan.n_local, plan.n_sectors, model.free.size());
   find_strips(plan);
   add_order(plan);
   cut(model, tuning, plan);

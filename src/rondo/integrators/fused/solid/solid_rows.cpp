@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -292,6 +294,10 @@ class Rows {
 }  // namespace
 
 SolidStiffness solid_stiffness(const Model& model, const SolidSector& sector) {
+  static_assert(std::tuple_size_v<Numbers> == kernels::n_mirror);
+  RONDO_DEMAND(sector.turn.size() == static_cast<std::size_t>(sector.n_sectors) &&
+                   sector.row_start.size() == sector.n_local() + 1,
+               sector.turn.size(), sector.n_sectors, sector.row_start.size(), sector.n_local());
   return std::move(Rows(model, sector).result);
 }
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <span>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/solid/solid_chunk.hpp"
 
 namespace rondo::dynamics {
@@ -12,6 +13,7 @@ std::size_t SolidChunk::candidate_at(int row, int column) const noexcept {
   const auto contact_row =
       static_cast<std::size_t>(plan_.contact_row[static_cast<std::size_t>(row)]);
   const int sector = (range_.first + column + plan_.n_sectors) % plan_.n_sectors;
+  RONDO_ASSERT(contact_row < plan_.candidate.size() && sector >= 0, row, column, sector);
   return static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
 }
 

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/model/pressure.hpp"
 
 namespace rondo::dynamics {
@@ -52,6 +53,7 @@ class ImplicitTail final : public StepTail {
 
   void after(const StepContext& step, PartialStep& part) noexcept override {
     part = {};
+    RONDO_ASSERT(loads_.empty() || step.pressures, loads_.size());
     fields_.read_velocity(v_);
     explicit_ = v_;
     const ImplicitEnergy energy =
@@ -131,6 +133,8 @@ class ImplicitTail final : public StepTail {
 std::unique_ptr<StepTail> implicit_tail(const Model& model, NodeSet nodes,
                                         std::unique_ptr<ImplicitOperator> implicit,
                                         NodeFields& fields) {
+  RONDO_DEMAND(model.implicit && implicit && nodes.size() >= model.implicit->nodes.size(),
+               model.implicit.has_value(), nodes.size());
   return std::make_unique<ImplicitTail>(model, std::move(nodes), std::move(implicit), fields);
 }
 

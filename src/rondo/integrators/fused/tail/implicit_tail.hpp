@@ -8,7 +8,7 @@
 
 namespace rondo::dynamics {
 
-/// @param fields of the nodes, which outlive it. @pre model.implicit
+/// @param fields of the nodes, which outlive it
 /// @param implicit A of these nodes at the spin of t = 0
 [[nodiscard]] std::unique_ptr<StepTail> implicit_tail(const Model& model, NodeSet nodes,
                                                       std::unique_ptr<ImplicitOperator> implicit,

@@ -218,6 +218,10 @@ class MasslessTail final : public StepTail {
 
 std::unique_ptr<StepTail> massless_tail(const Model& model, NodesInStep ring, NodesInStep around,
                                         RingProduct product) {
+  RONDO_DEMAND(has_massless_contact(model) && model.contact && ring.fields && around.fields,
+               ring.nodes.size(), around.nodes.size());
+  RONDO_DEMAND(ring.nodes.size() >= model.contact->nodes.size() && product, ring.nodes.size(),
+               model.contact->nodes.size());
   return std::make_unique<MasslessTail>(model, std::move(ring), std::move(around), product);
 }
 
@@ -232,6 +236,7 @@ std::vector<int> nodes_around(const Model& model) {
 }
 
 std::vector<int> sectors_around(const Model& model) {
+  RONDO_DEMAND(model.sector && model.contact, model.n_nodes());
   const fem::SectorStiffness& k = *model.sector;
   std::vector<char> is_around(at(k.nodes_per_sector), 0);
   for (const int node : nodes_around(model)) is_around[at(node % k.nodes_per_sector)] = 1;

@@ -19,7 +19,7 @@ struct NodesInStep {
 
 /// @param ring the candidates; `around`: the nodes with mass beside them. Where the nodes are rows
 /// round a ring of sectors (NodeSet::sectors) that RingArc fits, that makes the step.
-/// @param product loop of the instruction set. @pre has_massless_contact(model)
+/// @param product loop of the instruction set
 [[nodiscard]] std::unique_ptr<StepTail> massless_tail(const Model& model, NodesInStep ring,
                                                       NodesInStep around, RingProduct product);
 

@@ -17,6 +17,7 @@ namespace {
 
 namespace rubber = rondo::fem::hyperelastic;
 using rondo::dynamics::kernels::RubberElements;
+static_assert(rondo::dynamics::kernels::lanes == 8 && sizeof(Pack) == 8 * sizeof(double));
 
 inline Pack bounded(Pack j_less_1) noexcept {
   return larger(j_less_1, all(rubber::least_volume - 1.0));

@@ -4,6 +4,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "rondo/fem/rubber.hpp"
 #include "rondo/integrators/fused/kernels/kernels.hpp"
@@ -47,6 +48,9 @@ struct RubberRows {
   const std::int32_t* corner;  ///< (places, lanes) where a pair is in `force`
   const double* force;         ///< RubberElements::force
 };
+
+static_assert(std::is_trivial_v<RubberBranch> && std::is_trivial_v<RubberSums> &&
+              std::is_trivial_v<RubberElements> && std::is_trivial_v<RubberRows>);
 
 /// The loops of one instruction set for rubber.
 struct RubberTable {

@@ -10,6 +10,9 @@ using NeoHooke = rubber::NeoHooke<Pack>;
 using Polynomial = rubber::Polynomial<Pack>;
 
 constexpr rondo::dynamics::kernels::RubberTable rubber_table() noexcept {
+  using rondo::fem::RubberLaw;
+  static_assert(RubberLaw{0} == RubberLaw::neo_hooke && RubberLaw{1} == RubberLaw::mooney_rivlin &&
+                RubberLaw{2} == RubberLaw::yeoh && RubberLaw{3} == RubberLaw::ogden);
   return {{{rubber_elements<NeoHooke, false>, rubber_elements<Polynomial, false>,
             rubber_elements<Polynomial, false>, rubber_elements<OgdenLanes, false>},
            {rubber_elements<NeoHooke, true>, rubber_elements<Polynomial, true>,

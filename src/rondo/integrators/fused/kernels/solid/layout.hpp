@@ -4,6 +4,7 @@
 /// the frame of its own node: the first axis points from the axle to X.
 #pragma once
 #include <cstddef>
+#include <type_traits>
 
 #include "rondo/integrators/fused/kernels/kernels.hpp"
 
@@ -50,6 +51,10 @@ enum SolidMirror {
   mirror_tz1,
   n_mirror
 };
+
+static_assert(n_mirror == 14 && mirror_rr == 0);
+static_assert(solid_rows == 2);       // SolidEntry::rows has a bit for each
+static_assert(solid_packs % 2 == 0);  // half of them at a time
 
 /// A node of a sector, over the sectors of a chunk.
 struct SolidRow {
@@ -105,6 +110,10 @@ struct SolidHeight {
   double limit;                   ///< top of the ground - height of the center             [m]
   int first, last;                ///< columns looked at
 };
+
+static_assert(std::is_trivial_v<SolidEntry> && std::is_trivial_v<SolidRow> &&
+              std::is_trivial_v<SolidFactors> && std::is_trivial_v<SolidStrip> &&
+              std::is_trivial_v<SolidHeight>);
 
 /// The loops of one instruction set for a wheel in three dimensions.
 struct SolidTable {

@@ -17,6 +17,8 @@ using rondo::dynamics::kernels::SolidStrip;
 /// Packs of a group, and the halo on both sides.
 constexpr int most_packs = solid_packs + 2;
 
+static_assert(sizeof(Pack) == lanes * sizeof(double) && solid_packs / 2 <= 3);
+
 /// K u of some packs, by rows and components.
 struct SolidForces {
   alignas(64) double f[solid_rows][3][most_packs * lanes];
