@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "rondo/analysis/build/bodies.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/edges.hpp"
 
 namespace rondo::study {
@@ -16,11 +17,11 @@ constexpr double depth_share = 0.25;
 
 std::vector<int> unguarded_nodes(const mesh::Mesh& mesh) {
   std::vector<char> guarded = mesh::clamped_flags(mesh);
-  for (const int node : mesh.boundary) guarded[static_cast<std::size_t>(node)] = 1;
+  for (const int node : mesh.boundary) guarded[at(node)] = 1;
   std::vector<int> nodes;
   for (const mesh::Edge& edge : mesh::boundary_edges(mesh::EdgeTable(mesh)))
     for (const int node : edge)
-      if (!guarded[static_cast<std::size_t>(node)]) nodes.push_back(node);
+      if (!guarded[at(node)]) nodes.push_back(node);
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <string_view>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::study {
 
 struct Case;
@@ -31,7 +33,7 @@ inline constexpr KindOfCase analysis_kinds[] = {
 };
 
 constexpr const KindOfCase& rules_of(AnalysisKind kind) noexcept {
-  return analysis_kinds[static_cast<std::size_t>(kind)];
+  return analysis_kinds[at(kind)];
 }
 
 }  // namespace rondo::study

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/text/edit_distance.hpp"
 
 namespace rondo::study {
@@ -39,7 +40,7 @@ constexpr Words words[] = {
 };
 
 const Words& words_of(KeyType type) {
-  return words[static_cast<std::size_t>(type)];
+  return words[at(type)];
 }
 
 std::string range_text(const Range& r, bool whole) {

@@ -5,6 +5,7 @@
 
 #include "rondo/case/case.hpp"
 #include "rondo/case/case_rules.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -18,9 +19,8 @@ void read_schema(CaseSource& source) {
   if (value.integer <= schema_read) return;
   const bool in_file = value.place.source == 0;
   throw InputError(
-      Fault{source.sources[static_cast<std::size_t>(value.place.source)].name,
-            in_file ? value.place.line : 0, in_file ? value.place.column : 0, "schema",
-            source.written(value.place),
+      Fault{source.sources[at(value.place.source)].name, in_file ? value.place.line : 0,
+            in_file ? value.place.column : 0, "schema", source.written(value.place),
             fmt::format("schema {} is from a later version of rondo; this one reads {}",
                         value.integer, schema_read),
             fmt::format("{}", schema_read)});

@@ -17,6 +17,7 @@
 #include "rondo/case/toml_text.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/files/regular_file.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -343,7 +344,7 @@ CaseSource load_case_text(const std::string& name, std::string text,
 }
 
 std::string CaseSource::written(const Place& place) const {
-  const SourceText& source = sources[static_cast<std::size_t>(place.source)];
+  const SourceText& source = sources[at(place.source)];
   const auto offset = [&](int line, int column) {
     const auto at = static_cast<std::size_t>(line - 1);
     if (line < 1 || at >= source.line_begin.size()) return source.text.size();

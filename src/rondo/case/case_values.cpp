@@ -13,6 +13,7 @@
 #include "rondo/case/numbers/foreign_writing.hpp"
 #include "rondo/case/profile_file.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -102,7 +103,7 @@ bool CaseValues::good(std::initializer_list<std::string_view> keys) const {
 void CaseValues::add(const Place& place, std::string_view key, std::string found,
                      std::string message, std::string allowed) {
   bad_keys_.emplace(key);
-  const std::string& file = source_.sources[static_cast<std::size_t>(place.source)].name;
+  const std::string& file = source_.sources[at(place.source)].name;
   const bool in_file = place.source == 0;
   faults_.push_back({place,
                      {file, in_file ? place.line : 0, in_file ? place.column : 0, std::string(key),
@@ -138,7 +139,7 @@ void CaseValues::fault(std::string_view key, std::string message, std::string al
 void CaseValues::fault_at_item(std::string_view key, int item, std::string message) {
   const auto found = source_.values.find(key);
   if (key == "ground.profile" && item >= 0 && !profile_lines_.empty()) {
-    const int line = profile_lines_[static_cast<std::size_t>(item)];
+    const int line = profile_lines_[at(item)];
     faults_.push_back({found->second.place,
                        {profile_file_, line, 1, std::string(key), "", std::move(message), ""}});
     return;
@@ -146,7 +147,7 @@ void CaseValues::fault_at_item(std::string_view key, int item, std::string messa
   if (found == source_.values.end() || item < 0 ||
       static_cast<std::size_t>(item) >= found->second.items.size())
     return fault(key, std::move(message));
-  const Place place = found->second.items[static_cast<std::size_t>(item)].place;
+  const Place place = found->second.items[at(item)].place;
   add(place, key, source_.written(place), std::move(message), {});
 }
 
@@ -419,8 +420,8 @@ std::map<std::string, KeyPlace> CaseValues::places() const {
   std::map<std::string, KeyPlace> places;
   const auto put = [&](const std::string& key, const Place& place, const std::string& written) {
     const bool in_file = place.source == 0;
-    places[key] = {source_.sources[static_cast<std::size_t>(place.source)].name,
-                   in_file ? place.line : 0, in_file ? place.column : 0, written};
+    places[key] = {source_.sources[at(place.source)].name, in_file ? place.line : 0,
+                   in_file ? place.column : 0, written};
   };
   for (const auto& [table, place] : source_.tables) put(table, place, "");
   for (const auto& [key, value] : source_.values) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::contact {
 namespace {
@@ -62,9 +63,8 @@ void SegmentGrid::fill_cells() {
   for (std::size_t c = 2; c < cells + 2; ++c) cell_start_[c] += cell_start_[c - 1];
   cell_edges_.resize(static_cast<std::size_t>(cell_start_[cells + 1]));
   for (std::size_t i = 0; i < boxes_.size(); ++i)
-    each_cell(boxes_[i], [&](std::size_t c) {
-      cell_edges_[static_cast<std::size_t>(cell_start_[c + 1]++)] = static_cast<int>(i);
-    });
+    each_cell(boxes_[i],
+              [&](std::size_t c) { cell_edges_[at(cell_start_[c + 1]++)] = static_cast<int>(i); });
 }
 
 void SegmentGrid::build(std::span<const Vec2> positions, std::span<const std::array<int, 2>> edges,
@@ -77,8 +77,8 @@ void SegmentGrid::build(std::span<const Vec2> positions, std::span<const std::ar
   built_at_.resize(2 * edges.size());
   const double reach = margin + skin;
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Vec2 a = positions[static_cast<std::size_t>(edges[i][0])];
-    const Vec2 b = positions[static_cast<std::size_t>(edges[i][1])];
+    const Vec2 a = positions[at(edges[i][0])];
+    const Vec2 b = positions[at(edges[i][1])];
     RONDO_DEMAND(std::isfinite(a.x + a.y + b.x + b.y), i);
     built_at_[2 * i] = a;
     built_at_[2 * i + 1] = b;
@@ -96,7 +96,7 @@ bool SegmentGrid::update(std::span<const Vec2> positions, std::span<const std::a
   // A node that moves by less than the skin in x and in y stays in its box.
   for (std::size_t i = 0; fits && i < edges.size(); ++i)
     for (std::size_t k = 0; k < 2; ++k) {
-      const Vec2 moved = positions[static_cast<std::size_t>(edges[i][k])] - built_at_[2 * i + k];
+      const Vec2 moved = positions[at(edges[i][k])] - built_at_[2 * i + k];
       if (!(std::abs(moved.x) <= skin && std::abs(moved.y) <= skin)) fits = false;
     }
   if (!fits) build(positions, edges, margin, skin);
@@ -110,8 +110,8 @@ void SegmentGrid::near(Vec2 p, std::vector<int>& edges_out) const {
   const auto cell = static_cast<std::size_t>(cell_y(p.y)) * static_cast<std::size_t>(columns_) +
                     static_cast<std::size_t>(cell_x(p.x));
   for (int k = cell_start_[cell]; k < cell_start_[cell + 1]; ++k) {
-    const int edge = cell_edges_[static_cast<std::size_t>(k)];
-    const Box& box = boxes_[static_cast<std::size_t>(edge)];
+    const int edge = cell_edges_[at(k)];
+    const Box& box = boxes_[at(edge)];
     if (p.x < box.low.x || p.x > box.high.x || p.y < box.low.y || p.y > box.high.y) continue;
     edges_out.push_back(edge);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::contact {
 namespace {
@@ -35,12 +36,12 @@ double distance_from(const SegmentTouch& touch, double length) noexcept {
 }
 
 Segment segment_of(const BoundaryQuery& query, int edge) noexcept {
-  const auto point = [&](int node) { return query.positions[static_cast<std::size_t>(node)]; };
+  const auto point = [&](int node) { return query.positions[at(node)]; };
   const auto& edges = query.boundary.edges;
-  const auto [a, b] = edges[static_cast<std::size_t>(edge)];
-  const auto [before, after] = query.boundary.beside[static_cast<std::size_t>(edge)];
-  return {before < 0 ? point(a) : point(edges[static_cast<std::size_t>(before)][0]), point(a),
-          point(b), after < 0 ? point(b) : point(edges[static_cast<std::size_t>(after)][1])};
+  const auto [a, b] = edges[at(edge)];
+  const auto [before, after] = query.boundary.beside[at(edge)];
+  return {before < 0 ? point(a) : point(edges[at(before)][0]), point(a), point(b),
+          after < 0 ? point(b) : point(edges[at(after)][1])};
 }
 
 Vec2 place_at(const BoundaryPoint& point, const Segment& s) noexcept {
@@ -55,23 +56,20 @@ bool may_touch(const BoundaryPoint& point, const Boundary& boundary, int edge) n
 
 /// Keeps the least deep touch of each body, in the order in which bodies are met.
 void keep(EdgeTouches& out, const Boundary& boundary, const EdgeTouch& found) noexcept {
-  const auto body = [&](const EdgeTouch& t) {
-    return boundary.body[static_cast<std::size_t>(t.edge)];
-  };
+  const auto body = [&](const EdgeTouch& t) { return boundary.body[at(t.edge)]; };
   for (int i = 0; i < out.count; ++i) {
-    EdgeTouch& known = out.at[static_cast<std::size_t>(i)];
+    EdgeTouch& known = out.at[at(i)];
     if (body(known) != body(found)) continue;
     if (found.touch.gap > known.touch.gap) known = found;
     return;
   }
-  if (out.count < static_cast<int>(out.at.size()))
-    out.at[static_cast<std::size_t>(out.count++)] = found;
+  if (out.count < static_cast<int>(out.at.size())) out.at[at(out.count++)] = found;
 }
 
 /// The segment beyond the joint, where the boundary turns inwards there and p is behind it too.
 std::optional<EdgeTouch> across_joint(const BoundaryPoint& point, const BoundaryQuery& query,
                                       const EdgeTouch& found, bool at_end) noexcept {
-  const int other = query.boundary.beside[static_cast<std::size_t>(found.edge)][at_end ? 1 : 0];
+  const int other = query.boundary.beside[at(found.edge)][at_end ? 1 : 0];
   if (other < 0 || !may_touch(point, query.boundary, other)) return {};
   const Segment here = segment_of(query, found.edge), there = segment_of(query, other);
   const Vec2 first = at_end ? here.b - here.a : there.b - there.a;
@@ -105,8 +103,8 @@ Boundary make_boundary(std::vector<std::array<int, 2>> edges, std::span<const in
   for (std::size_t i = 0; i < edges.size(); ++i) {
     RONDO_DEMAND(edges[i][0] >= 0 && edges[i][1] >= 0 && edges[i][0] != edges[i][1], edges[i][0],
                  edges[i][1]);
-    note(begins[static_cast<std::size_t>(edges[i][0])], static_cast<int>(i));
-    note(ends[static_cast<std::size_t>(edges[i][1])], static_cast<int>(i));
+    note(begins[at(edges[i][0])], static_cast<int>(i));
+    note(ends[at(edges[i][1])], static_cast<int>(i));
   }
   Boundary out{.edges = std::move(edges), .beside = {}, .body = {}};
   for (const auto& [a, b] : out.edges) {
@@ -127,11 +125,11 @@ EdgeTouches touch_boundary(const BoundaryPoint& point, const BoundaryQuery& quer
     if (touch) keep(out, query.boundary, {edge, *touch});
   }
   for (int i = 0, bodies = out.count; i < bodies; ++i) {
-    const EdgeTouch found = out.at[static_cast<std::size_t>(i)];
+    const EdgeTouch found = out.at[at(i)];
     for (const bool at_end : {true, false}) {
       const auto other = across_joint(point, query, found, at_end);
       if (!other || out.count == static_cast<int>(out.at.size())) continue;
-      out.at[static_cast<std::size_t>(out.count++)] = *other;
+      out.at[at(out.count++)] = *other;
       break;
     }
   }

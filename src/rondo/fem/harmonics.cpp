@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::fem {
 namespace {
@@ -29,7 +30,7 @@ std::vector<Term> lower_terms(const SectorBlocks<C>& k, const Eigen::VectorXd& r
       for (int c = 0; c < C * C; ++c) {
         const int row = C * static_cast<int>(a) + c % C, column = C * e.column + c / C;
         if (row < column) continue;
-        const double value = e.block[static_cast<std::size_t>(c)];
+        const double value = e.block[at(c)];
         terms.push_back({row, column, e.shift, value / (root_mass[row] * root_mass[column])});
       }
   std::sort(terms.begin(), terms.end(), [](const Term& a, const Term& b) {

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/element.hpp"
 #include "rondo/fem/solid/corners.hpp"
 #include "rondo/fem/solid/hexahedron.hpp"
@@ -21,7 +22,7 @@ double size_of(const mesh::Mesh& mesh, std::size_t element) {
   const mesh::Cell& cell = mesh.cells[element];
   std::array<Vec2, 4> x;
   const auto n = static_cast<std::size_t>(mesh::n_corners(cell));
-  for (std::size_t a = 0; a < n; ++a) x[a] = mesh.coordinates[static_cast<std::size_t>(cell[a])];
+  for (std::size_t a = 0; a < n; ++a) x[a] = mesh.coordinates[at(cell[a])];
   return sum(element_masses({x.data(), n}, 1.0));
 }
 

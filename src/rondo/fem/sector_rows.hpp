@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "rondo/core/index.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 
 namespace rondo::fem::detail {
@@ -103,8 +104,7 @@ SectorMap<C> forward_blocks(const std::vector<SectorElement>& elements, const Se
     const auto e = stiffness(c.element);
     for (std::size_t i = 0; i < c.n; ++i)
       for (std::size_t j = 0; j < c.n; ++j) {
-        const int row = rows.place[static_cast<std::size_t>(c.node[i])],
-                  column = rows.place[static_cast<std::size_t>(c.node[j])];
+        const int row = rows.place[at(c.node[i])], column = rows.place[at(c.node[j])];
         if (row < 0 || column < 0 || c.shift[i] != 0 || c.shift[j] < 0) continue;
         const NodeBlock<C> b = corner_block<C>(e, i, j);
         const NodeBlock<C> t = c.shift[j] == 1 ? turned<C>(b, rows.turn[1]) : b;

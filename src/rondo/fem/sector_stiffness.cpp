@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/sector_rows.hpp"
 
@@ -21,7 +22,7 @@ std::vector<int> layers_of(const std::vector<SectorElement>& elements,
   const auto lowest = [&](const SectorElement& c) {
     int found = -1;
     for (std::size_t i = 0; i < c.n; ++i) {
-      const int l = layer[static_cast<std::size_t>(c.node[i])];
+      const int l = layer[at(c.node[i])];
       if (l >= 0 && (found < 0 || l < found)) found = l;
     }
     return found;
@@ -31,7 +32,7 @@ std::vector<int> layers_of(const std::vector<SectorElement>& elements,
     for (const SectorElement& c : elements) {
       if (lowest(c) != current) continue;
       for (std::size_t i = 0; i < c.n; ++i) {
-        int& l = layer[static_cast<std::size_t>(c.node[i])];
+        int& l = layer[at(c.node[i])];
         if (l < 0) l = current + 1, grew = true;
       }
     }
@@ -55,16 +56,15 @@ SectorRows sector_rows(const mesh::Mesh& mesh, const std::vector<SectorElement>&
   const auto n = static_cast<std::size_t>(rows.nodes_per_sector);
   std::vector<char> clamped(n, 0);
   for (const int node : mesh.clamped)
-    clamped[static_cast<std::size_t>(mesh.sector_node[static_cast<std::size_t>(node)])] = 1;
+    clamped[at(mesh.sector_node[static_cast<std::size_t>(node)])] = 1;
   const std::vector<int> layer = layers_of(elements, clamped);
   for (std::size_t i = 0; i < n; ++i)
     if (!clamped[i]) rows.nodes.push_back(static_cast<int>(i));
-  std::stable_sort(rows.nodes.begin(), rows.nodes.end(), [&](int a, int b) {
-    return layer[static_cast<std::size_t>(a)] < layer[static_cast<std::size_t>(b)];
-  });
+  std::stable_sort(rows.nodes.begin(), rows.nodes.end(),
+                   [&](int a, int b) { return layer[at(a)] < layer[at(b)]; });
   rows.place.assign(n, -1);
   for (std::size_t a = 0; a < rows.nodes.size(); ++a)
-    rows.place[static_cast<std::size_t>(rows.nodes[a])] = static_cast<int>(a);
+    rows.place[at(rows.nodes[a])] = static_cast<int>(a);
   return rows;
 }
 
@@ -94,7 +94,7 @@ void apply(const SectorStiffness& k, std::span<const Vec2> u, std::span<Vec2> ou
       Vec2 sum;
       for (const SectorStiffness::Entry& e : k.row(a)) {
         const int place = e.shift + 1;
-        const std::size_t there = sector[static_cast<std::size_t>(place)];
+        const std::size_t there = sector[at(place)];
         const Vec2 c = conj(k.turn[there]) * u[k.node(static_cast<std::size_t>(e.column), there)];
         sum += {e.block[0] * c.x + e.block[2] * c.y, e.block[1] * c.x + e.block[3] * c.y};
       }

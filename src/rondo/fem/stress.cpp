@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rondo/core/index.hpp"
 #include "rondo/fem/assembly.hpp"
 
 namespace rondo::fem {
@@ -20,16 +21,16 @@ StressRecovery::StressRecovery(const mesh::Mesh& mesh, std::span<const Material>
     const mesh::Cell& cell = mesh.cells[e];
     std::array<Vec2, 4> x;
     const auto n = static_cast<std::size_t>(mesh::n_corners(cell));
-    for (std::size_t a = 0; a < n; ++a) x[a] = mesh.coordinates[static_cast<std::size_t>(cell[a])];
+    for (std::size_t a = 0; a < n; ++a) x[a] = mesh.coordinates[at(cell[a])];
     std::array<double, 4> weight = element_masses({x.data(), n}, 1.0);
-    for (std::size_t a = 0; a < n; ++a) weight[a] /= total[static_cast<std::size_t>(cell[a])];
+    for (std::size_t a = 0; a < n; ++a) weight[a] /= total[at(cell[a])];
     weight_.push_back(weight);
   }
 }
 
 std::span<const Stress> StressRecovery::operator()(std::span<const Vec2> u) {
   std::fill(nodal_.begin(), nodal_.end(), Stress{});
-  const auto displacement = [u](int node) { return u[static_cast<std::size_t>(node)]; };
+  const auto displacement = [u](int node) { return u[at(node)]; };
   for (std::size_t e = 0; e < mesh_.cells.size(); ++e) {
     const mesh::Cell& cell = mesh_.cells[e];
     const auto n = static_cast<std::size_t>(mesh::n_corners(cell));
@@ -37,8 +38,7 @@ std::span<const Stress> StressRecovery::operator()(std::span<const Vec2> u) {
         law_[mesh_.region.empty() ? 0 : static_cast<std::size_t>(mesh_.region[e])];
     const auto stress = cell_stress(mesh_, e, law, dilatation_, displacement);
     for (std::size_t a = 0; a < n; ++a)
-      for (std::size_t k = 0; k < 4; ++k)
-        nodal_[static_cast<std::size_t>(cell[a])][k] += weight_[e][a] * stress[a][k];
+      for (std::size_t k = 0; k < 4; ++k) nodal_[at(cell[a])][k] += weight_[e][a] * stress[a][k];
   }
   return nodal_;
 }

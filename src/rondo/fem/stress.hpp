@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "rondo/core/complex.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/element.hpp"
 #include "rondo/fem/hyperelastic/stress.hpp"
 #include "rondo/fem/nodal_dilatation.hpp"
@@ -36,7 +37,7 @@ std::array<Stress, 4> cell_stress(const mesh::Mesh& mesh, std::size_t cell, cons
   const auto n = static_cast<std::size_t>(mesh::n_corners(nodes));
   std::array<Vec2, 4> x, of_corner;
   for (std::size_t a = 0; a < n; ++a) {
-    x[a] = mesh.coordinates[static_cast<std::size_t>(nodes[a])];
+    x[a] = mesh.coordinates[at(nodes[a])];
     of_corner[a] = u(nodes[a]);
   }
   const bool nodal = dilatation.holds(cell);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rondo/core/error.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/io/h5/hash.hpp"
 
 namespace rondo::io {
@@ -141,7 +142,7 @@ int count_sectors(const h5::File& file, const mesh::Mesh& m) {
   std::vector<char> seen(m.n_nodes(), 0);
   for (std::size_t i = 0; i < m.n_nodes(); ++i) {
     const long long s = m.sector[i], k = m.sector_node[i];
-    if (s < 0 || k < 0 || k >= of_each || seen[static_cast<std::size_t>(s * of_each + k)]++ != 0)
+    if (s < 0 || k < 0 || k >= of_each || seen[at(s * of_each + k)]++ != 0)
       damaged(file,
               fmt::format("has node {} at place {} of sector {}, where it cannot be", i, k, s));
   }
@@ -153,7 +154,7 @@ void check_nodes(const h5::File& file, const mesh::Mesh& m) {
   const auto is_node = [n](int node) { return node >= 0 && node < n; };
   for (std::size_t c = 0; c < m.cells.size(); ++c)
     for (int k = 0; k < mesh::n_corners(m.cells[c]); ++k)
-      if (!is_node(m.cells[c][static_cast<std::size_t>(k)]))
+      if (!is_node(m.cells[c][at(k)]))
         damaged(file, fmt::format("has cell {} with a node that is none of the {}", c, n));
   for (std::size_t e = 0; e < m.hexahedra.size(); ++e)
     if (!std::ranges::all_of(m.hexahedra[e], is_node))

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/solid/solid_stress.hpp"
 #include "rondo/fem/stress.hpp"
 #include "rondo/io/mesh_files.hpp"
@@ -235,8 +236,8 @@ void Results::write_stress(const Snapshot& s, const SnapshotFields& fields) {
   const auto write = [&](const auto& stress) {
     for (std::size_t i = 0; i < c_.nodes; ++i) {
       scalars_[i] = static_cast<float>(fem::von_mises(stress[i]));
-      tensors_[i] = turned_tensor(
-          stress[i], is_free(i) ? s.poses[static_cast<std::size_t>(free_body_[i])].rotation : turn);
+      tensors_[i] =
+          turned_tensor(stress[i], is_free(i) ? s.poses[at(free_body_[i])].rotation : turn);
     }
   };
   if (c_.solid)
@@ -255,7 +256,7 @@ void Results::write_contact(const SnapshotFields& fields) {
     std::copy_n(numbers.begin(), c_.components, &of_candidates_[k * c_.components]);
   };
   for (std::size_t k = 0; k < c_.candidates; ++k) {
-    forces_[static_cast<std::size_t>(boundary_[k])] = rounded(fields.contact_force_fixed[k]);
+    forces_[at(boundary_[k])] = rounded(fields.contact_force_fixed[k]);
     put(k, fields.contact_force[k]);
   }
   if (c_.modes == 0) row(d_.field_force, forces_);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::mesh {
 namespace {
@@ -43,7 +44,7 @@ std::vector<Line> add_nodes(Mesh& mesh, const Layout& l, const std::vector<doubl
     const int in_sector = in_pitch == 0 ? 0 : mesh.sector_node.back() + 1;
     const int top = top_layer(l, in_pitch);
     for (int k = 0; k <= top; ++k) {
-      mesh.coordinates.push_back(radii[static_cast<std::size_t>(k)] * direction);
+      mesh.coordinates.push_back(radii[at(k)] * direction);
       mesh.sector.push_back(pitch);
       mesh.sector_node.push_back(in_sector + k);
     }
@@ -68,12 +69,11 @@ void add_boundary(Mesh& mesh, const Layout& l, const std::vector<Line>& lines) {
   const int n = static_cast<int>(lines.size());
   const bool grooved = l.columns > l.land;
   const auto top_node = [&](int i) {
-    const Line& line = lines[static_cast<std::size_t>((i + n) % n)];
+    const Line& line = lines[at((i + n) % n)];
     return line.first + line.top;
   };
   const auto chord = [&](int i) {
-    const auto at = [&](int node) { return mesh.coordinates[static_cast<std::size_t>(node)]; };
-    return norm(at(top_node(i + 1)) - at(top_node(i)));
+    return norm(mesh.coordinates[at(top_node(i + 1))] - mesh.coordinates[at(top_node(i))]);
   };
   for (int i = 0; i < n; ++i) {
     const int in_pitch = i % l.columns;

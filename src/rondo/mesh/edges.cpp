@@ -5,12 +5,14 @@
 #include <numeric>
 #include <tuple>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::mesh {
 namespace {
 
 Edge edge_of(const Cell& cell, int corner) {
   const int next = (corner + 1) % n_corners(cell);
-  return {cell[static_cast<std::size_t>(corner)], cell[static_cast<std::size_t>(next)]};
+  return {cell[at(corner)], cell[at(next)]};
 }
 
 }  // namespace
@@ -25,12 +27,11 @@ EdgeTable::EdgeTable(const Mesh& mesh) : first_(mesh.n_nodes() + 1, 0) {
   for (std::size_t e = 0; e < mesh.cells.size(); ++e)
     for (int a = 0; a < n_corners(mesh.cells[e]); ++a) {
       const auto [from, to] = edge_of(mesh.cells[e], a);
-      edges_[next[static_cast<std::size_t>(std::min(from, to))]++] = {
-          std::max(from, to), static_cast<int>(e), from < to};
+      edges_[next[at(std::min(from, to))]++] = {std::max(from, to), static_cast<int>(e), from < to};
     }
-  const auto at = [&](std::size_t k) { return edges_.begin() + static_cast<std::ptrdiff_t>(k); };
+  const auto edge = [&](std::size_t k) { return edges_.begin() + static_cast<std::ptrdiff_t>(k); };
   for (std::size_t k = 0; k + 1 < first_.size(); ++k)
-    std::sort(at(first_[k]), at(first_[k + 1]), [](const CellEdge& a, const CellEdge& b) {
+    std::sort(edge(first_[k]), edge(first_[k + 1]), [](const CellEdge& a, const CellEdge& b) {
       return std::tie(a.high, a.cell) < std::tie(b.high, b.cell);
     });
 }
@@ -56,14 +57,13 @@ std::vector<Edge> boundary_edges(const EdgeTable& table) {
 std::vector<char> boundary_flags(const EdgeTable& table, std::size_t n_nodes) {
   std::vector<char> flags(n_nodes, 0);
   for (const Edge& edge : boundary_edges(table))
-    for (const int node : edge) flags[static_cast<std::size_t>(node)] = 1;
+    for (const int node : edge) flags[at(node)] = 1;
   return flags;
 }
 
 double longest_edge(std::span<const Vec2> x, std::span<const Edge> edges) {
-  const auto at = [&](int node) { return x[static_cast<std::size_t>(node)]; };
   double longest = 0.0;
-  for (const Edge& edge : edges) longest = std::max(longest, norm(at(edge[1]) - at(edge[0])));
+  for (const Edge& edge : edges) longest = std::max(longest, norm(x[at(edge[1])] - x[at(edge[0])]));
   return longest;
 }
 
@@ -88,7 +88,7 @@ std::vector<Edge> in_order(std::span<const Edge> edges) {
       const int node = sorted[k][1];
       const auto group = std::ranges::lower_bound(sorted, Edge{node, 0}) - sorted.begin();
       if (!begins_at(static_cast<std::size_t>(group), node)) return;
-      std::size_t& next = unused[static_cast<std::size_t>(group)];
+      std::size_t& next = unused[at(group)];
       while (begins_at(next, node) && used[next]) ++next;
       if (!begins_at(next, node)) return;
       k = next;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/gmsh_draft.hpp"
 
 namespace rondo::mesh {
@@ -25,7 +26,7 @@ Edge undirected_edge(const Edge& edge) {
 std::vector<std::vector<CurveLine>> lines_of_entities(const CurveInput& in, const Draft& draft) {
   const auto node = [&](std::uint64_t tag) {
     const int place = in.index.find(tag);
-    return place < 0 ? -1 : draft.node_of[static_cast<std::size_t>(place)];
+    return place < 0 ? -1 : draft.node_of[at(place)];
   };
   std::vector<std::vector<CurveLine>> lines(in.raw.entities.size());
   for (const RawBlock& block : in.raw.blocks) {
@@ -162,20 +163,19 @@ const Curve* curve_of(const std::string& name, const CurveInput& in, const Mesh&
 
 void add_candidates(const Curve& curve, Mesh& mesh) {
   const std::vector<char> clamped = clamped_flags(mesh);
-  const auto is_clamped = [&](int node) { return clamped[static_cast<std::size_t>(node)] != 0; };
+  const auto is_clamped = [&](int node) { return clamped[at(node)] != 0; };
   std::vector<int> place(mesh.n_nodes(), -1);
   for (const Edge& edge : curve.edges) {
-    const auto at = [&](int node) { return mesh.coordinates[static_cast<std::size_t>(node)]; };
-    const double half = 0.5 * norm(at(edge[1]) - at(edge[0]));
+    const double half = 0.5 * norm(mesh.coordinates[at(edge[1])] - mesh.coordinates[at(edge[0])]);
     for (const int node : edge) {
       if (is_clamped(node)) continue;
-      int& own = place[static_cast<std::size_t>(node)];
+      int& own = place[at(node)];
       if (own < 0) {
         own = static_cast<int>(mesh.boundary.size());
         mesh.boundary.push_back(node);
         mesh.tributary.push_back(0.0);
       }
-      mesh.tributary[static_cast<std::size_t>(own)] += half;
+      mesh.tributary[at(own)] += half;
     }
     if (!is_clamped(edge[0]) && !is_clamped(edge[1])) mesh.contact_edges.push_back(edge);
   }
@@ -187,7 +187,7 @@ std::vector<int> clamped_nodes_of(const Curve& curve, const Mesh& mesh) {
   std::vector<int> nodes;
   for (const Edge& edge : curve.edges)
     for (const int node : edge)
-      if (clamped[static_cast<std::size_t>(node)]) nodes.push_back(node);
+      if (clamped[at(node)]) nodes.push_back(node);
   std::ranges::sort(nodes);
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   return nodes;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/gmsh_draft.hpp"
 #include "rondo/mesh/mesh_check.hpp"
 
@@ -32,7 +33,7 @@ std::string reversed_surfaces(const RawMesh& raw, const std::vector<int>& clockw
                               const Draft& draft) {
   std::vector<std::size_t> all(raw.entities.size(), 0), wrong(raw.entities.size(), 0);
   for (const std::size_t k : draft.cell_entity) ++all[k];
-  for (const int cell : clockwise) ++wrong[draft.cell_entity[static_cast<std::size_t>(cell)]];
+  for (const int cell : clockwise) ++wrong[draft.cell_entity[at(cell)]];
   std::vector<std::string> tags;
   for (std::size_t k = 0; k < all.size(); ++k)
     if (wrong[k] > 0 && wrong[k] == all[k]) tags.push_back(fmt::format("{}", raw.entities[k].tag));
@@ -56,10 +57,9 @@ void name_duplicates(const std::vector<std::array<int, 2>>& pairs, const Draft& 
   findings.add(fmt::format("{} cells are there twice: {}", pairs.size(),
                            examples(pairs.size(),
                                     [&](std::size_t k) {
-                                      return fmt::format(
-                                          "{} has the corners of element {}",
-                                          draft.cell_text(pairs[k][0]),
-                                          draft.cell_tag[static_cast<std::size_t>(pairs[k][1])]);
+                                      return fmt::format("{} has the corners of element {}",
+                                                         draft.cell_text(pairs[k][0]),
+                                                         draft.cell_tag[at(pairs[k][1])]);
                                     })),
                "each once: gmsh.model.mesh.removeDuplicateElements, or one surface less");
 }
@@ -69,11 +69,9 @@ void name_crowded(const std::vector<BadEdge>& edges, const Draft& draft, Finding
   const auto text_of = [&](std::size_t k) {
     const BadEdge& edge = edges[k];
     const auto tag = [&](std::size_t c) {
-      return fmt::format("{}", draft.cell_tag[static_cast<std::size_t>(edge.cells[c])]);
+      return fmt::format("{}", draft.cell_tag[at(edge.cells[c])]);
     };
-    const auto node = [&](std::size_t a) {
-      return draft.mesh.coordinates[static_cast<std::size_t>(edge.nodes[a])];
-    };
+    const auto node = [&](std::size_t a) { return draft.mesh.coordinates[at(edge.nodes[a])]; };
     return fmt::format("the one at {} of elements {}", draft.place_text(0.5 * (node(0) + node(1))),
                        examples(edge.cells.size(), tag));
   };
@@ -89,14 +87,12 @@ void name_coincident(const Draft& draft, const EdgeTable& table, Findings& findi
   const std::vector<char> on_boundary = boundary_flags(table, draft.mesh.n_nodes());
   std::vector<std::array<int, 2>> touching, inside;
   for (const auto& pair : coincident_nodes(draft.mesh)) {
-    const auto outer = [&](std::size_t k) {
-      return on_boundary[static_cast<std::size_t>(pair[k])] != 0;
-    };
+    const auto outer = [&](std::size_t k) { return on_boundary[at(pair[k])] != 0; };
     (outer(0) && outer(1) ? touching : inside).push_back(pair);
   }
   const auto list = [&](const std::vector<std::array<int, 2>>& pairs) {
     return examples(pairs.size(), [&](std::size_t k) {
-      return fmt::format("node {} and {}", draft.node_tag[static_cast<std::size_t>(pairs[k][1])],
+      return fmt::format("node {} and {}", draft.node_tag[at(pairs[k][1])],
                          draft.node_text(pairs[k][0]));
     });
   };

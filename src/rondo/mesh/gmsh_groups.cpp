@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 
+#include "rondo/core/index.hpp"
 #include "rondo/core/text/edit_distance.hpp"
 #include "rondo/mesh/gmsh_draft.hpp"
 #include "rondo/mesh/physical_group.hpp"
@@ -52,7 +53,7 @@ std::string probably_meant(const std::vector<NamedGroup>& groups, int dimension,
 
 void check_name(const std::string& key, const std::string& name, int dimension,
                 const std::vector<NamedGroup>& groups, Findings& findings) {
-  const char* const kind = kinds[static_cast<std::size_t>(dimension)];
+  const char* const kind = kinds[at(dimension)];
   const NamedGroup* const found = find_group(groups, dimension, name);
   if (found != nullptr && !found->empty) return;
   Fault fault;
@@ -65,8 +66,8 @@ void check_name(const std::string& key, const std::string& name, int dimension,
   } else {
     const auto other = std::ranges::find(groups, name, &NamedGroup::name);
     if (other != groups.end())
-      fault.message = fmt::format("this is a physical {}, not a {}",
-                                  kinds[static_cast<std::size_t>(other->dimension)], kind);
+      fault.message =
+          fmt::format("this is a physical {}, not a {}", kinds[at(other->dimension)], kind);
   }
   fault.allowed = all_names(groups) + probably_meant(groups, dimension, name);
   if (found == nullptr && (dimension == 1 || dimension == 2))
@@ -153,11 +154,11 @@ void warn_of_empty_surfaces(const RawMesh& raw, Findings& findings) {
 void warn_of_groups(const RawMesh& raw, const std::vector<NamedGroup>& groups, Findings& findings) {
   for (const NamedGroup& group : groups) {
     if (group.tags.size() < 2) continue;
-    findings.warnings.push_back(fmt::format(
-        "{} physical {}s have the name {} (numbers {}): they are taken as one", group.tags.size(),
-        kinds[static_cast<std::size_t>(group.dimension)], in_quotes(group.name),
-        examples(group.tags.size(),
-                 [&](std::size_t k) { return fmt::format("{}", group.tags[k]); })));
+    findings.warnings.push_back(
+        fmt::format("{} physical {}s have the name {} (numbers {}): they are taken as one",
+                    group.tags.size(), kinds[at(group.dimension)], in_quotes(group.name),
+                    examples(group.tags.size(),
+                             [&](std::size_t k) { return fmt::format("{}", group.tags[k]); })));
   }
   warn_of_empty_surfaces(raw, findings);
 }

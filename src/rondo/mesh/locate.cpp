@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::mesh {
 namespace {
@@ -55,8 +56,7 @@ double distance_to_segment(Vec2 a, Vec2 b, Vec2 p) {
 Vec2 middle_of(std::span<const Vec2> coordinates, const Cell& cell) noexcept {
   Vec2 sum;
   const int n = n_corners(cell);
-  for (int a = 0; a < n; ++a)
-    sum += coordinates[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])];
+  for (int a = 0; a < n; ++a) sum += coordinates[at(cell[static_cast<std::size_t>(a)])];
   return sum / n;
 }
 
@@ -70,8 +70,7 @@ std::optional<std::array<double, 4>> shape_functions(std::span<const Vec2> corne
 CellGrid::Corners CellGrid::corners(std::size_t e) const {
   Corners c;
   c.n = static_cast<std::size_t>(n_corners(cells_[e]));
-  for (std::size_t a = 0; a < c.n; ++a)
-    c.at[a] = coordinates_[static_cast<std::size_t>(cells_[e][a])];
+  for (std::size_t a = 0; a < c.n; ++a) c.at[a] = coordinates_[at(cells_[e][a])];
   return c;
 }
 

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::mesh {
 
 std::vector<char> clamped_flags(const Mesh& mesh) {
   std::vector<char> flags(mesh.n_nodes(), 0);
-  for (const int node : mesh.clamped) flags[static_cast<std::size_t>(node)] = 1;
+  for (const int node : mesh.clamped) flags[at(node)] = 1;
   return flags;
 }
 
@@ -16,18 +18,18 @@ Bodies find_bodies(const Mesh& mesh) {
   std::vector<int> root(mesh.n_nodes());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int node) {
-    while (root[static_cast<std::size_t>(node)] != node) {
-      int& up = root[static_cast<std::size_t>(node)];
-      node = up = root[static_cast<std::size_t>(up)];
+    while (root[at(node)] != node) {
+      int& up = root[at(node)];
+      node = up = root[at(up)];
     }
     return node;
   };
   std::vector<char> used(mesh.n_nodes(), 0);
   for (const Cell& cell : mesh.cells)
     for (int a = 0; a < n_corners(cell); ++a) {
-      const int first = find(cell[0]), other = find(cell[static_cast<std::size_t>(a)]);
-      used[static_cast<std::size_t>(cell[static_cast<std::size_t>(a)])] = 1;
-      root[static_cast<std::size_t>(std::max(first, other))] = std::min(first, other);
+      const int first = find(cell[0]), other = find(cell[at(a)]);
+      used[at(cell[static_cast<std::size_t>(a)])] = 1;
+      root[at(std::max(first, other))] = std::min(first, other);
     }
   Bodies bodies;
   bodies.of_node.assign(mesh.n_nodes(), -1);

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::mesh {
 namespace {
 
@@ -23,8 +25,7 @@ struct Corners {
 Corners corners_of(const Mesh& mesh, const Cell& cell) {
   Corners corners;
   corners.n = static_cast<std::size_t>(n_corners(cell));
-  for (std::size_t a = 0; a < corners.n; ++a)
-    corners.x[a] = mesh.coordinates[static_cast<std::size_t>(cell[a])];
+  for (std::size_t a = 0; a < corners.n; ++a) corners.x[a] = mesh.coordinates[at(cell[a])];
   return corners;
 }
 

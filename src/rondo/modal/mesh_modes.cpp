@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/process_wide.hpp"
 #include "rondo/modal/inertia.hpp"
 #include "rondo/modal/krylov.hpp"
@@ -67,8 +68,7 @@ ReducedBody reduce(const MeshBody& body, double spin) {
   r.k = fem::free_matrix(body.stiffness, r.free);
   r.mass.resize(r.k.rows());
   for (std::size_t i = 0; i < r.free.size(); ++i)
-    r.mass.segment<2>(static_cast<Index>(2 * i))
-        .setConstant(body.mass[static_cast<std::size_t>(r.free[i])]);
+    r.mass.segment<2>(static_cast<Index>(2 * i)).setConstant(body.mass[at(r.free[i])]);
   for (Index i = 0; i < r.k.rows(); ++i) r.k.coeffRef(i, i) -= spin * spin * r.mass[i];
   r.rigid = rigid_motions(body, r);
   return r;
@@ -212,11 +212,10 @@ std::vector<int> free_bodies(const mesh::Mesh& mesh) {
   const mesh::Bodies all = mesh::find_bodies(mesh);
   std::vector<char> held(static_cast<std::size_t>(all.count), 0);
   for (const int node : mesh.clamped)
-    if (const int b = all.of_node[static_cast<std::size_t>(node)]; b >= 0)
-      held[static_cast<std::size_t>(b)] = 1;
+    if (const int b = all.of_node[at(node)]; b >= 0) held[at(b)] = 1;
   std::vector<int> bodies;
   for (int b = 0; b < all.count; ++b)
-    if (!held[static_cast<std::size_t>(b)]) bodies.push_back(b);
+    if (!held[at(b)]) bodies.push_back(b);
   return bodies;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/sum.hpp"
 #include "rondo/model/corotated.hpp"
 #include "rondo/model/internal_force.hpp"
@@ -19,7 +20,7 @@ void demand_rubber_alone(const Model& model, const Hyperelasticity& body) {
   RONDO_DEMAND(model.stiffness_damping == 0.0, model.stiffness_damping);
   const std::vector<char> alone = body.nodes_of_rubber_alone();
   for (const FreeBody& free : model.free_bodies)
-    for (const int node : free.nodes) RONDO_DEMAND(alone[static_cast<std::size_t>(node)], node);
+    for (const int node : free.nodes) RONDO_DEMAND(alone[at(node)], node);
 }
 
 class Hyperelastic final : public InternalForce {

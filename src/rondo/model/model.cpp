@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 
 namespace rondo::dynamics {
@@ -23,8 +24,8 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
   const mesh::Bodies bodies = mesh::find_bodies(mesh);
   std::vector<char> held(static_cast<std::size_t>(bodies.count), 0);
   for (const int node : mesh.clamped) {
-    const int body = bodies.of_node[static_cast<std::size_t>(node)];
-    if (body >= 0) held[static_cast<std::size_t>(body)] = 1;
+    const int body = bodies.of_node[at(node)];
+    if (body >= 0) held[at(body)] = 1;
   }
   std::vector<int> place(held.size(), -1);
   model.free_bodies.clear();
@@ -39,9 +40,9 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
   model.free_body.assign(mesh.n_nodes(), -1);
   for (std::size_t k = 0; k < mesh.n_nodes(); ++k) {
     const int body = bodies.of_node[k];
-    if (body < 0 || held[static_cast<std::size_t>(body)]) continue;
-    model.free_body[k] = place[static_cast<std::size_t>(body)];
-    FreeBody& free = model.free_bodies[static_cast<std::size_t>(model.free_body[k])];
+    if (body < 0 || held[at(body)]) continue;
+    model.free_body[k] = place[at(body)];
+    FreeBody& free = model.free_bodies[at(model.free_body[k])];
     free.nodes.push_back(static_cast<int>(k));
     free.mass += model.mass[k];
     free.center += model.mass[k] * model.reference[k];
@@ -51,7 +52,7 @@ void find_free_bodies(const mesh::Mesh& mesh, Model& model) {
 
 std::vector<int> nodes_with_mass(const Model& model) {
   std::vector<int> nodes = model.free;
-  std::erase_if(nodes, [&](int node) { return model.mass[static_cast<std::size_t>(node)] == 0.0; });
+  std::erase_if(nodes, [&](int node) { return model.mass[at(node)] == 0.0; });
   return nodes;
 }
 

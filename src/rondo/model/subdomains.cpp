@@ -46,7 +46,7 @@ std::vector<int> distance_to_interface(const Subdomains& parts) {
   for (std::size_t next = 0; next < reached.size(); ++next) {
     const int from = reached[next];
     for (auto b = k.row_start[at(from)]; b < k.row_start[at(from) + 1]; ++b) {
-      const int to = k.column[static_cast<std::size_t>(b)];
+      const int to = k.column[at(b)];
       if (distance[at(to)] >= 0) continue;
       distance[at(to)] = distance[at(from)] + 1;
       reached.push_back(to);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/process_wide.hpp"
 
 namespace rondo::pod {
@@ -22,8 +23,7 @@ Rings rings_of(const mesh::Mesh& mesh, const std::vector<int>& nodes) {
   // The rings are in the order of their nodes within a sector.
   std::vector<int> in_sector;
   for (const int node : nodes)
-    if (mesh.sector[static_cast<std::size_t>(node)] == 0)
-      in_sector.push_back(mesh.sector_node[static_cast<std::size_t>(node)]);
+    if (mesh.sector[at(node)] == 0) in_sector.push_back(mesh.sector_node[at(node)]);
   std::sort(in_sector.begin(), in_sector.end());
   if (in_sector.size() * n_sectors != nodes.size()) return {};
   Rings rings{mesh.n_sectors, std::vector<int>(nodes.size(), -1)};

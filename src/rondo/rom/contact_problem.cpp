@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::rom {
 namespace {
 
@@ -127,8 +129,8 @@ void ContactSolver::find(const FreeStep& step, bool next) {
     if (touches.count > 0) points_.push_back(k);
     const int material = material_of(k, end_.sectors);
     for (int i = 0; i < touches.count; ++i) {
-      const contact::Touch& touch = touches.at[static_cast<std::size_t>(i)];
-      const Vec2 warm = i == 0 ? warm_[static_cast<std::size_t>(material)] : Vec2{};
+      const contact::Touch& touch = touches.at[at(i)];
+      const Vec2 warm = i == 0 ? warm_[at(material)] : Vec2{};
       contacts_.push_back({k, material, conj(turned) * touch.normal, touch.gap, warm});
     }
   }
@@ -230,7 +232,7 @@ ContactOutcome ContactSolver::solve(const FreeStep& step, const contact::Law& la
     c.impulse = impulse_[i];
     c.status = status_[i];
     outcome.free_velocity = std::max(outcome.free_velocity, norm(problem_.free[i]));
-    Vec2& warm = warm_[static_cast<std::size_t>(c.material)];
+    Vec2& warm = warm_[at(c.material)];
     if (warm == Vec2{}) warm = c.impulse;
   }
   return outcome;

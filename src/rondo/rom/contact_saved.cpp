@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/rom/contact_problem.hpp"
 
 namespace rondo::rom {
@@ -43,12 +44,11 @@ void ContactSolver::restore(const SavedContact& s, const StepMatrices* matrices)
   steps_ = s.steps;
   contacts_.clear();
   std::ranges::fill(warm_, Vec2{});
-  for (const auto& [material, impulse] : s.impulses)
-    warm_[static_cast<std::size_t>(material)] = impulse;
+  for (const auto& [material, impulse] : s.impulses) warm_[at(material)] = impulse;
   if (nodes_) phases_.clear();
   for (const SavedPhase& phase : s.phases) {
     if (nodes_) static_cast<void>(table_of(phase.share));
-    Phase& own = phases_[static_cast<std::size_t>(&phase - s.phases.data())];
+    Phase& own = phases_[at(&phase - s.phases.data())];
     own.used = phase.used;
     if (own.table->portions() == phase.portions) continue;
     own.table->forget();

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/pod/dense.hpp"
 
 namespace rondo::rom {
@@ -291,7 +292,7 @@ void ReducedIntegrator::fill_contacts(double angle,
   const Complex turned = contact_->frame_rotation(angle);
   const auto add = [&](int material, double share, const PointContact& c) {
     dynamics::ActiveContact a;
-    a.candidate = static_cast<std::size_t>(candidates_[static_cast<std::size_t>(material)]);
+    a.candidate = static_cast<std::size_t>(candidates_[at(material)]);
     a.normal = turned * c.normal;
     a.impulse = share * c.impulse;
     a.status = c.status;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/process_wide.hpp"
 #include "rondo/pod/dense.hpp"
 
@@ -24,11 +25,9 @@ std::span<Vec2> as_field(double* numbers, Index rows) {
 template <class Change>
 void in_rings(const pod::Rings& rings, std::span<Vec2> field, std::vector<Vec2>& ordered,
               Change&& change) {
-  for (std::size_t i = 0; i < ordered.size(); ++i)
-    ordered[i] = field[static_cast<std::size_t>(rings.point[i])];
+  for (std::size_t i = 0; i < ordered.size(); ++i) ordered[i] = field[at(rings.point[i])];
   change(std::span<Vec2>(ordered));
-  for (std::size_t i = 0; i < ordered.size(); ++i)
-    field[static_cast<std::size_t>(rings.point[i])] = ordered[i];
+  for (std::size_t i = 0; i < ordered.size(); ++i) field[at(rings.point[i])] = ordered[i];
 }
 
 MatrixXd skew_part(const MatrixXd& a) {
@@ -39,7 +38,7 @@ MatrixXd skew_part(const MatrixXd& a) {
 VectorXd weighted_field(std::span<const Vec2> field, const VectorXd& roots) {
   VectorXd out(roots.size());
   for (Index i = 0; i < out.size() / 2; ++i) {
-    const Vec2 v = field[static_cast<std::size_t>(i)];
+    const Vec2 v = field[at(i)];
     out[2 * i] = roots[2 * i] * v.x;
     out[2 * i + 1] = roots[2 * i + 1] * v.y;
   }
@@ -180,8 +179,7 @@ BoundaryLift::BoundaryLift(const mesh::Mesh& mesh, const ReducedModel& model)
 
 void BoundaryLift::lift(double theta, const VectorXd& q, std::span<Vec2> u) {
   lift_.lift(theta, q, values_);
-  for (std::size_t k = 0; k < values_.size(); ++k)
-    u[static_cast<std::size_t>(boundary_[k])] = values_[k];
+  for (std::size_t k = 0; k < values_.size(); ++k) u[at(boundary_[k])] = values_[k];
 }
 
 }  // namespace rondo::rom

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/rom/reduced_model.hpp"
 
 namespace rondo::rom {
@@ -17,7 +18,7 @@ RimModes make_rim_modes(const mesh::Mesh& mesh, std::span<const double> mass,
                mesh.n_nodes());
   RimModes m;
   std::vector<bool> bonded(mesh.n_nodes(), false);
-  for (const int node : mesh.clamped) bonded[static_cast<std::size_t>(node)] = true;
+  for (const int node : mesh.clamped) bonded[at(node)] = true;
   for (std::size_t k = 0; k < mass.size(); ++k) {
     if (bonded[k]) continue;
     m.mass += mass[k];

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/process_wide.hpp"
 
 namespace rondo::statics {
@@ -38,7 +39,7 @@ struct Condensation::Impl {
     std::vector<Vec2> field(n_nodes);
     for (std::size_t i = 0; i < free.size(); ++i) {
       const auto row = static_cast<Index>(2 * i);
-      field[static_cast<std::size_t>(free[i])] = {u[row], u[row + 1]};
+      field[at(free[i])] = {u[row], u[row + 1]};
     }
     return field;
   }
@@ -148,7 +149,7 @@ std::vector<Vec2> Condensation::displacement(std::span<const Vec2> force) const 
   const Impl& m = *impl_;
   Eigen::VectorXd f(m.k.rows());
   for (std::size_t i = 0; i < m.free.size(); ++i) {
-    const Vec2 of_node = force[static_cast<std::size_t>(m.free[i])];
+    const Vec2 of_node = force[at(m.free[i])];
     f.segment<2>(static_cast<Index>(2 * i)) << of_node.x, of_node.y;
   }
   const OneBlasThread one_thread;

@@ -7,6 +7,7 @@
 
 #include "rondo/contact/residual.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -42,7 +43,7 @@ void sweep(const CondensedProblem& p, Eigen::VectorXd& r, Findings& found) {
     r[n] = local.impulse.x;
     r[t] = local.impulse.y;
     const bool slips = local.status == Status::slip;
-    found[static_cast<std::size_t>(j)] = {local.status, slips && r[t] < 0.0 ? -1.0 : 1.0};
+    found[at(j)] = {local.status, slips && r[t] < 0.0 ? -1.0 : 1.0};
   }
 }
 
@@ -58,19 +59,19 @@ Eigen::VectorXd solve_directly(const CondensedProblem& p, const Findings& found)
   Eigen::VectorXd r = Eigen::VectorXd::Zero(p.free.size());
   if (rows.empty()) return r;
   const auto edge = [&](Index row) {  // μ with its sign where the row's candidate slips
-    const Finding& f = found[static_cast<std::size_t>(row / 2)];
+    const Finding& f = found[at(row / 2)];
     return f.status == Status::slip ? f.side * p.friction : 0.0;
   };
   const auto size = static_cast<Index>(rows.size());
   Eigen::MatrixXd a(size, size);
   for (Index k = 0; k < size; ++k) {
-    const Index column = rows[static_cast<std::size_t>(k)];
+    const Index column = rows[at(k)];
     a.col(k) = p.compliance.col(column)(rows);
     if (edge(column) != 0.0) a.col(k) += edge(column) * p.compliance.col(column + 1)(rows);
   }
   const Eigen::VectorXd part = a.partialPivLu().solve(-p.free(rows));
   for (Index k = 0; k < size; ++k) {
-    const Index row = rows[static_cast<std::size_t>(k)];
+    const Index row = rows[at(k)];
     r[row] = part[k];
     if (edge(row) != 0.0) r[row + 1] = edge(row) * part[k];
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/keep_larger.hpp"
 
 namespace rondo::statics {
@@ -17,7 +18,7 @@ using Eigen::Index;
 
 /// H u of a node.
 Vec2 displaced(const CrushModel& model, std::size_t candidate, const std::vector<Vec2>& u) {
-  return in_contact_frame(u[static_cast<std::size_t>(model.nodes[candidate])]);
+  return in_contact_frame(u[at(model.nodes[candidate])]);
 }
 
 /// What an increment is solved from and to, before it becomes the state.
@@ -146,10 +147,8 @@ CrushModel make_crush_model(std::span<const Vec2> reference, std::span<const int
   model.nodes.assign(nodes.begin(), nodes.end());
   model.friction = std::move(friction);
   double lowest = std::numeric_limits<double>::infinity();
-  for (const int node : nodes)
-    lowest = std::min(lowest, reference[static_cast<std::size_t>(node)].y);
-  for (const int node : nodes)
-    model.clearance.push_back(reference[static_cast<std::size_t>(node)].y - lowest);
+  for (const int node : nodes) lowest = std::min(lowest, reference[at(node)].y);
+  for (const int node : nodes) model.clearance.push_back(reference[at(node)].y - lowest);
   return model;
 }
 

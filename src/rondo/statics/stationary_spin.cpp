@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "rondo/core/index.hpp"
 #include "rondo/core/process_wide.hpp"
 
 namespace rondo::statics {
@@ -17,8 +18,7 @@ using Matrix = Eigen::SparseMatrix<double>;
 Eigen::VectorXd mass_vector(std::span<const double> mass, std::span<const int> free) {
   Eigen::VectorXd m(static_cast<Eigen::Index>(2 * free.size()));
   for (std::size_t i = 0; i < free.size(); ++i)
-    m.segment<2>(static_cast<Eigen::Index>(2 * i))
-        .setConstant(mass[static_cast<std::size_t>(free[i])]);
+    m.segment<2>(static_cast<Eigen::Index>(2 * i)).setConstant(mass[at(free[i])]);
   return m;
 }
 
@@ -47,7 +47,7 @@ StationarySpin solve(const fem::BlockCsr& k, std::span<const double> mass,
   const Matrix a = shifted(k, m, free, softening);
   Eigen::VectorXd load(m.size());
   for (std::size_t i = 0; i < free.size(); ++i) {
-    const Vec2 x = reference[static_cast<std::size_t>(free[i])];
+    const Vec2 x = reference[at(free[i])];
     load.segment<2>(static_cast<Eigen::Index>(2 * i)) = Eigen::Vector2d(x.x, x.y);
   }
   load.array() *= spin * spin * m.array();
@@ -61,8 +61,8 @@ StationarySpin solve(const fem::BlockCsr& k, std::span<const double> mass,
   out.status = SpinStatus::solved;
   out.residual = load.norm() > 0.0 ? (a * u - load).norm() / load.norm() : 0.0;
   for (std::size_t i = 0; i < free.size(); ++i)
-    out.u.plane()[static_cast<std::size_t>(free[i])] = {u[static_cast<Eigen::Index>(2 * i)],
-                                                        u[static_cast<Eigen::Index>(2 * i + 1)]};
+    out.u.plane()[at(free[i])] = {u[static_cast<Eigen::Index>(2 * i)],
+                                  u[static_cast<Eigen::Index>(2 * i + 1)]};
   return out;
 }
 
@@ -118,7 +118,7 @@ bool balance(const TurningRubber& r, double square, StationarySpin& out) {
       return true;  // and stable
     best = std::min(best, rest.relative);
     for (std::size_t i = 0; i < r.free.size(); ++i)
-      out.u.plane()[static_cast<std::size_t>(r.free[i])] +=
+      out.u.plane()[at(r.free[i])] +=
           Vec2{step[static_cast<Eigen::Index>(2 * i)], step[static_cast<Eigen::Index>(2 * i + 1)]};
   }
   return false;

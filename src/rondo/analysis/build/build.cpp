@@ -23,6 +23,7 @@
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/features/case_features.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/limits/processors.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/mesh/edges.hpp"
@@ -51,7 +52,7 @@ void add_contacts(const Case& c, const mesh::Mesh& mesh, dynamics::Model& model)
 void refuse_held_curve(const Case& c, const mesh::Mesh& mesh, const std::string& key,
                        const std::string& name, const std::vector<mesh::Edge>& edges) {
   const std::vector<char> held = mesh::clamped_flags(mesh);
-  const auto is_held = [&](int node) { return held[static_cast<std::size_t>(node)] != 0; };
+  const auto is_held = [&](int node) { return held[at(node)] != 0; };
   if (!std::ranges::all_of(edges,
                            [&](const mesh::Edge& e) { return is_held(e[0]) && is_held(e[1]); }))
     return;

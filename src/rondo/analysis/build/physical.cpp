@@ -14,6 +14,7 @@
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/rubber.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -161,14 +162,14 @@ const fem::Material& touching_material(const mesh::Mesh& mesh,
                                        const std::vector<fem::Material>& materials) {
   RONDO_DEMAND(!mesh.boundary.empty() && !materials.empty(), materials.size());
   std::vector<char> touches(mesh.n_nodes(), 0);
-  for (const int node : mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
+  for (const int node : mesh.boundary) touches[at(node)] = 1;
   double least = std::numeric_limits<double>::infinity();
   std::size_t softest = 0;
   const auto add = [&](std::size_t e, std::span<const int> corners) {
     const double modulus = fem::material_of(mesh, materials, e).youngs_modulus;
     if (modulus >= least) return;
     for (const int node : corners) {
-      if (!touches[static_cast<std::size_t>(node)]) continue;
+      if (!touches[at(node)]) continue;
       least = modulus;
       softest = e;
     }
@@ -213,9 +214,7 @@ void warn_of_units(const Case& c, const mesh::Mesh& mesh,
 std::optional<Wall> wall_of(const mesh::Mesh& mesh) {
   constexpr double round = 0.9;
   if (mesh.clamped.empty() || mesh.boundary.empty()) return std::nullopt;
-  const auto radius = [&](int node) {
-    return norm(mesh.coordinates[static_cast<std::size_t>(node)]);
-  };
+  const auto radius = [&](int node) { return norm(mesh.coordinates[at(node)]); };
   Extremes outer, inner;
   for (const int node : mesh.boundary) outer.take(radius(node));
   for (const int node : mesh.clamped) inner.take(radius(node));

@@ -10,6 +10,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -244,12 +245,11 @@ void warn_of_fast_contact(const Case& c, Setup& s) {
   double shortest = std::numeric_limits<double>::infinity();
   if (s.mesh.is_solid()) {
     const std::vector<double> sizes = element_sizes(s.mesh);
-    for (const int node : s.mesh.boundary)
-      shortest = std::min(shortest, sizes[static_cast<std::size_t>(node)]);
+    for (const int node : s.mesh.boundary) shortest = std::min(shortest, sizes[at(node)]);
   }
   for (const mesh::Edge& edge : s.mesh.contact_edges) {
-    const auto at = [&](int end) { return s.mesh.coordinates[static_cast<std::size_t>(end)]; };
-    shortest = std::min(shortest, norm(at(edge[1]) - at(edge[0])));
+    const auto& x = s.mesh.coordinates;
+    shortest = std::min(shortest, norm(x[at(edge[1])] - x[at(edge[0])]));
   }
   const double dt = explicit_step(s.model), way = largest_speed(c, s) * dt;
   if (!(way > 0.5 * shortest)) return;

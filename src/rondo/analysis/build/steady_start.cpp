@@ -7,6 +7,7 @@
 
 #include "rondo/case/case_rules.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/model/pressure.hpp"
 #include "rondo/statics/steady/rolling_newton.hpp"
 #include "rondo/statics/steady/rolling_power.hpp"
@@ -110,7 +111,7 @@ void hold_down(double radius, Setup& s) {
 template <int C>
 std::vector<int> candidate_rows(const mesh::Mesh& mesh, const fem::SectorBlocks<C>& sector) {
   std::vector<char> touches(mesh.n_nodes(), 0);
-  for (const int node : mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
+  for (const int node : mesh.boundary) touches[at(node)] = 1;
   std::vector<int> rows;
   for (std::size_t a = 0; a < sector.n_local(); ++a)
     if (touches[sector.node(a, 0)] != 0) rows.push_back(static_cast<int>(a));
@@ -123,8 +124,7 @@ std::vector<Vec2> sector_load(const dynamics::Model& model, const fem::SectorSti
   if (model.pressures.empty()) return {};
   std::vector<Vec2> of_node(model.n_nodes());
   for (const dynamics::NodalLoad& load : dynamics::nodal_loads(model))
-    of_node[static_cast<std::size_t>(load.node)] +=
-        model.pressures[static_cast<std::size_t>(load.load)].pressure.at(0.0) * load.force;
+    of_node[at(load.node)] += model.pressures[at(load.load)].pressure.at(0.0) * load.force;
   std::vector<Vec2> rows;
   RONDO_DEMAND(sector.n_local() > 0 && sector.node(sector.n_local() - 1, 0) < model.n_nodes(),
                sector.n_local(), model.n_nodes());

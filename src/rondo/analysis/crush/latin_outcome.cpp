@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "rondo/core/index.hpp"
 #include "rondo/core/sum.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 
@@ -50,7 +51,7 @@ void LatinOutcome::measure(statics::CrushEquilibrium& e, statics::CrushReport& r
   double force = 0.0, off = 0.0;
   for (std::size_t j = 0; j < setup_.model.nodes.size(); ++j) {
     const Vec2 r = from_frame({0.0, 1.0}, e.force[j]);
-    rest[static_cast<std::size_t>(setup_.model.nodes[j])] -= r;
+    rest[at(setup_.model.nodes[j])] -= r;
     force += dot(r, r);
   }
   for (const Vec2 f : rest) off += dot(f, f);
@@ -82,7 +83,7 @@ std::string LatinOutcome::missed(const statics::CrushState& state, double tolera
   const double allowed = tolerance * setup_.path.largest_depth();
   for (const std::size_t j : outside_) {
     if (state.slip[j].x >= -allowed) continue;
-    const Vec2 at = setup_.mesh.coordinates[static_cast<std::size_t>(setup_.model.nodes[j])];
+    const Vec2 at = setup_.mesh.coordinates[at(setup_.model.nodes[j])];
     return fmt::format(
         "the contact node at ({:.4g}, {:.4g}) m comes {:.3g} m into the ground and was not "
         "condensed, because it is {:.4g} m above it at first touch, more than twice the depth; "

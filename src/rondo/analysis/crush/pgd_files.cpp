@@ -11,6 +11,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/io/basis_file.hpp"
 #include "rondo/io/directory.hpp"
 #include "rondo/io/files.hpp"
@@ -74,7 +75,7 @@ double orthonormality(const statics::Separated& s, Index kept) {
 /// Root of the energy that the first r modes leave, over all of it.
 double left_out(const pod::Spectrum& s, Index r) {
   if (r == 0) return s.energy.empty() ? 0.0 : std::sqrt(s.discarded.front() + s.energy.front());
-  return std::sqrt(s.discarded[static_cast<std::size_t>(r - 1)]);
+  return std::sqrt(s.discarded[at(r - 1)]);
 }
 
 io::PodContent content_of(const PgdModes& m, const Found& found, const fs::path& run) {

@@ -9,6 +9,7 @@
 #include "rondo/analysis/elements/corner_words.hpp"
 #include "rondo/analysis/elements/parts.hpp"
 #include "rondo/case/case_keys.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -19,11 +20,11 @@ constexpr const char* first_table = "solver.implicit[0]";
 void refuse_massless_nodes(const Case& c, const Setup& s) {
   if (!has_massless_contact(s.model)) return;
   std::vector<char> touches(s.mesh.n_nodes(), 0);
-  for (const int node : s.mesh.boundary) touches[static_cast<std::size_t>(node)] = 1;
+  for (const int node : s.mesh.boundary) touches[at(node)] = 1;
   for (std::size_t e = 0; e < s.implicit_cells.size(); ++e)
     for (int a = 0; s.implicit_cells[e] && a < mesh::n_corners(s.mesh.cells[e]); ++a) {
-      const int node = s.mesh.cells[e][static_cast<std::size_t>(a)];
-      if (touches[static_cast<std::size_t>(node)])
+      const int node = s.mesh.cells[e][at(a)];
+      if (touches[at(node)])
         throw case_error(
             c, first_table,
             fmt::format("element {} has contact node {}, which solver.contact_mass leaves without "
@@ -41,7 +42,7 @@ void refuse_contacts(const Case& c, const Setup& s, const std::vector<int>& node
   const auto touched = std::ranges::find_if(
       nodes, [&](int node) { return std::ranges::binary_search(boundary, node); });
   if (touched == nodes.end()) return;
-  const Vec2 x = s.mesh.coordinates[static_cast<std::size_t>(*touched)];
+  const Vec2 x = s.mesh.coordinates[at(*touched)];
   const std::string where = fmt::format(
       "node {} at ({:.6g}, {:.6g}) m, on an implicit element, may touch", *touched, x.x, x.y);
   if (s.model.surfaces)
@@ -98,7 +99,7 @@ std::vector<int> free_nodes_of(const mesh::Mesh& mesh, const std::vector<char>& 
   std::vector<char> is_of(mesh.n_nodes(), 0);
   for (std::size_t e = 0; e < cells.size(); ++e)
     for (int a = 0; cells[e] && a < mesh::n_corners(mesh.cells[e]); ++a)
-      is_of[static_cast<std::size_t>(mesh.cells[e][static_cast<std::size_t>(a)])] = 1;
+      is_of[at(mesh.cells[e][static_cast<std::size_t>(a)])] = 1;
   std::vector<int> nodes;
   for (std::size_t k = 0; k < is_of.size(); ++k)
     if (is_of[k] && !clamped[k]) nodes.push_back(static_cast<int>(k));

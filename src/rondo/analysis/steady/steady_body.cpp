@@ -8,6 +8,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/steady_start.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/modal/critical_speeds.hpp"
 #include "rondo/modal/solid_critical_spin.hpp"
@@ -77,8 +78,7 @@ void demand_rows_below(const Case& c, const SteadyBody<D>& b) {
 double radius_of(const Case& c, const mesh::Mesh& mesh) {
   if (is_generated(c)) return c.disk.outer_radius;
   double radius = 0.0;
-  for (const int node : mesh.boundary)
-    radius = std::max(radius, norm(mesh.coordinates[static_cast<std::size_t>(node)]));
+  for (const int node : mesh.boundary) radius = std::max(radius, norm(mesh.coordinates[at(node)]));
   return radius;
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "rondo/analysis/build/ground/contact_law.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/mesh/deformed_boundary.hpp"
 
@@ -42,7 +43,7 @@ SteadyState<D>::SteadyState(const Case& c, const SteadyBody<D>& body)
       candidate_of_(body.mesh.n_nodes()),
       sums_(static_cast<std::size_t>(c.analysis.samples_per_sector)) {
   for (std::size_t k = 0; k < body.mesh.boundary.size(); ++k)
-    candidate_of_[static_cast<std::size_t>(body.mesh.boundary[k])] = k;
+    candidate_of_[at(body.mesh.boundary[k])] = k;
   demand_free_shape(c, window_.lowest(), body.radius);
   solve();
   refuse();
@@ -177,14 +178,14 @@ void SteadyState<D>::sum_up() {
   const double share = 1.0 / window_.harmonics().body().samples;
   for (std::size_t j = 0; j < window_.pairs().size(); ++j) {
     if (!(force(j)[0] > 0.0)) continue;
-    add(j, 1.0, sums_[static_cast<std::size_t>(where(j).place)]);
+    add(j, 1.0, sums_[at(where(j).place)]);
     add(j, share, mean_);
   }
 }
 
 template <int D>
 HistoryRecord SteadyState<D>::record(int place, const Snapshot& now) const {
-  const SteadySums& s = sums_[static_cast<std::size_t>(place)];
+  const SteadySums& s = sums_[at(place)];
   HistoryRecord h;
   h.time = now.time;
   h.angle = now.angle;

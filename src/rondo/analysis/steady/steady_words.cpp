@@ -7,6 +7,7 @@
 #include <span>
 
 #include "rondo/analysis/steady/steady_members.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -59,8 +60,7 @@ void SteadyBody<D>::add_columns(RecordPlan& plan) const {
 template <int D>
 void SteadyState<D>::append_row(int place, const Snapshot& now, std::vector<double>& rows) const {
   append_history({.solid = D == 3}, record(place, now), rows);
-  append_values(std::span<const Column<R>>(own_columns<D>), sums_[static_cast<std::size_t>(place)],
-                rows);
+  append_values(std::span<const Column<R>>(own_columns<D>), sums_[at(place)], rows);
 }
 
 template <int D>

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rondo/contact/residual.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/keep_larger.hpp"
 
 namespace rondo::contact {
@@ -14,7 +15,7 @@ double coupled_residual(const CoupledProblem& p, std::span<const Vec2> impulse) 
     Vec2 w = p.free[j];
     for (auto k = static_cast<std::size_t>(p.row_start[j]);
          k < static_cast<std::size_t>(p.row_start[j + 1]); ++k)
-      w += apply(p.blocks[k], impulse[static_cast<std::size_t>(p.column[k])]);
+      w += apply(p.blocks[k], impulse[at(p.column[k])]);
     const double found = law_residual(impulse[j], w, p.bounce[j], p.friction[j], p.mass[j]);
     worst = keep_larger(worst, found);
     scale = std::max(scale, p.mass[j] * norm(p.free[j]));

@@ -12,6 +12,7 @@
 
 #include "rondo/core/error.hpp"
 #include "rondo/core/files/regular_file.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::contact {
 namespace {
@@ -107,7 +108,7 @@ std::string misfit(const ProblemFile& f) {
     if (p.row_start[j + 1] < p.row_start[j] || p.row_start[j + 1] > p.row_start[nc])
       return fmt::format("row_start goes back at row {}", j);
     for (int k = p.row_start[j]; k < p.row_start[j + 1]; ++k) {
-      const int l = p.column[static_cast<std::size_t>(k)];
+      const int l = p.column[at(k)];
       if (l < 0 || l >= static_cast<int>(nc)) return fmt::format("row {} has column {}", j, l);
       if (k > p.row_start[j] && l <= p.column[static_cast<std::size_t>(k) - 1])
         return fmt::format("the columns of row {} do not ascend", j);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::contact {
 namespace {
@@ -21,8 +22,7 @@ Block coupling(const ContactRows& j, const ContactRows& l,
   for (std::size_t a = 0; a < static_cast<std::size_t>(j.count); ++a)
     for (std::size_t b = 0; b < static_cast<std::size_t>(l.count); ++b) {
       if (j.node[a] != l.node[b]) continue;
-      const Block part =
-          through(j.block[a], response[static_cast<std::size_t>(j.node[a])], l.block[b]);
+      const Block part = through(j.block[a], response[at(j.node[a])], l.block[b]);
       for (std::size_t k = 0; k < 4; ++k) sum[k] += part[k];
     }
   return sum;
@@ -39,7 +39,7 @@ void DelassusBuilder::list_contacts(std::span<const ContactRows> contacts) {
   next_.resize(3 * contacts.size());
   for (std::size_t j = contacts.size(); j-- > 0;)
     for (std::size_t a = 0; a < static_cast<std::size_t>(contacts[j].count); ++a) {
-      int& head = head_[static_cast<std::size_t>(contacts[j].node[a])];
+      int& head = head_[at(contacts[j].node[a])];
       next_[3 * j + a] = head;
       head = static_cast<int>(3 * j + a);
     }
@@ -48,9 +48,8 @@ void DelassusBuilder::list_contacts(std::span<const ContactRows> contacts) {
 void DelassusBuilder::find_sharing(const ContactRows& contact) {
   sharing_.clear();
   for (std::size_t a = 0; a < static_cast<std::size_t>(contact.count); ++a) {
-    int entry = head_[static_cast<std::size_t>(contact.node[a])];
-    for (; entry >= 0; entry = next_[static_cast<std::size_t>(entry)])
-      sharing_.push_back(entry / 3);
+    int entry = head_[at(contact.node[a])];
+    for (; entry >= 0; entry = next_[at(entry)]) sharing_.push_back(entry / 3);
   }
   std::sort(sharing_.begin(), sharing_.end());
   sharing_.erase(std::unique(sharing_.begin(), sharing_.end()), sharing_.end());
@@ -68,8 +67,7 @@ void DelassusBuilder::build(std::span<const ContactRows> contacts,
     find_sharing(contacts[j]);
     for (const int l : sharing_) {
       problem.column.push_back(l);
-      problem.blocks.push_back(
-          coupling(contacts[j], contacts[static_cast<std::size_t>(l)], response));
+      problem.blocks.push_back(coupling(contacts[j], contacts[at(l)], response));
       if (static_cast<std::size_t>(l) != j) continue;
       const Block& w = problem.blocks.back();
       RONDO_DEMAND(w[0] + w[3] > 0.0, j, w[0], w[3]);
@@ -78,8 +76,7 @@ void DelassusBuilder::build(std::span<const ContactRows> contacts,
     problem.row_start.push_back(static_cast<int>(problem.column.size()));
   }
   for (const ContactRows& c : contacts)
-    for (std::size_t a = 0; a < static_cast<std::size_t>(c.count); ++a)
-      head_[static_cast<std::size_t>(c.node[a])] = -1;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(c.count); ++a) head_[at(c.node[a])] = -1;
 }
 
 }  // namespace rondo::contact

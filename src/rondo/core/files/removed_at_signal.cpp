@@ -10,6 +10,8 @@
 #include <cstring>
 #include <string>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo {
 namespace {
 
@@ -43,7 +45,7 @@ RemovedAtSignal::RemovedAtSignal(const std::filesystem::path& path) noexcept {
 }
 
 RemovedAtSignal::~RemovedAtSignal() {
-  if (place_ >= 0) places()[static_cast<std::size_t>(place_)].owner.store(0);
+  if (place_ >= 0) places()[at(place_)].owner.store(0);
 }
 
 void remove_at_signal() noexcept {

@@ -5,6 +5,7 @@
 #pragma once
 #include <array>
 
+#include "rondo/core/index.hpp"
 #include "rondo/fem/hyperelastic/element.hpp"
 #include "rondo/fem/nodal_dilatation.hpp"
 #include "rondo/mesh/mesh.hpp"
@@ -27,7 +28,7 @@ DeformedCell deformed_cell(const mesh::Mesh& mesh, std::size_t cell, Displacemen
   const mesh::Cell& nodes = mesh.cells[cell];
   deformed.n_corners = mesh::n_corners(nodes);
   for (std::size_t a = 0; a < static_cast<std::size_t>(deformed.n_corners); ++a) {
-    deformed.x[a] = mesh.coordinates[static_cast<std::size_t>(nodes[a])];
+    deformed.x[a] = mesh.coordinates[at(nodes[a])];
     deformed.u[a] = u(nodes[a]);
   }
   return deformed;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::fem {
 namespace {
@@ -205,8 +206,7 @@ double hexahedron_eigenvalue_bound(const HexahedronCorners& x, const Material& m
   const std::array<double, 8> volume = hexahedron_volumes(x);
   for (Eigen::Index i = 0; i < 24; ++i)
     for (Eigen::Index j = 0; j < 24; ++j)
-      k(i, j) /= material.density * std::sqrt(volume[static_cast<std::size_t>(i / 3)] *
-                                              volume[static_cast<std::size_t>(j / 3)]);
+      k(i, j) /= material.density * std::sqrt(volume[at(i / 3)] * volume[at(j / 3)]);
   using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 24, 24>>;
   return Solver(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/sector_rows.hpp"
 #include "rondo/fem/solid/corners.hpp"
 
@@ -38,7 +39,7 @@ std::vector<double> solid_mass(const mesh::Mesh& mesh, std::span<const Material>
     const double density = material_of(mesh, materials, c.element).density;
     const std::array<double, 8> volume = hexahedron_volumes(corners_of(mesh, c.element));
     for (std::size_t i = 0; i < 8; ++i)
-      if (c.shift[i] == 0) mass[static_cast<std::size_t>(c.node[i])] += density * volume[i];
+      if (c.shift[i] == 0) mass[at(c.node[i])] += density * volume[i];
   }
   mass.resize(mesh.n_nodes());
   for (std::size_t i = n; i < mass.size(); ++i) mass[i] = mass[i - n];
@@ -57,16 +58,16 @@ double solid_eigenvalue_bound(const mesh::Mesh& mesh, std::span<const Material> 
 std::vector<Vec3> sector_pressure(const mesh::Mesh& mesh, const SolidSector& k,
                                   std::span<const mesh::Face> faces) {
   std::vector<std::size_t> row_of(static_cast<std::size_t>(k.nodes_per_sector), k.n_local());
-  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[static_cast<std::size_t>(k.nodes[a])] = a;
+  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[at(k.nodes[a])] = a;
   std::vector<Vec3> force(k.n_local());
   for (const mesh::Face& face : faces) {
-    const bool touches = std::ranges::any_of(
-        face, [&](int node) { return mesh.sector[static_cast<std::size_t>(node)] == 0; });
+    const bool touches =
+        std::ranges::any_of(face, [&](int node) { return mesh.sector[at(node)] == 0; });
     if (!touches) continue;
     const std::array<Vec3, 4> share = mesh::face_shares(mesh::face_corners(mesh, face));
     for (std::size_t i = 0; i < 4; ++i) {
       const auto node = static_cast<std::size_t>(face[i]);
-      const std::size_t row = row_of[static_cast<std::size_t>(mesh.sector_node[node])];
+      const std::size_t row = row_of[at(mesh.sector_node[node])];
       if (mesh.sector[node] == 0 && row < k.n_local()) force[row] -= share[i];
     }
   }
@@ -82,7 +83,7 @@ void apply(const SolidSector& k, std::span<const Vec3> u, std::span<Vec3> out) {
       Vec3 sum;
       for (const SolidSector::Entry& e : k.row(a)) {
         const int place = e.shift + 1;
-        const std::size_t there = sector[static_cast<std::size_t>(place)];
+        const std::size_t there = sector[at(place)];
         const std::size_t node = k.node(static_cast<std::size_t>(e.column), there);
         const auto [x, y, z] = conj(k.turn[there]) * u[node];
         const auto& b = e.block;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/model/steps/step_table.hpp"
 
 namespace rondo::dynamics {
@@ -110,7 +111,7 @@ SavedState BodiesIntegrator::save() const {
     for (std::size_t i = 0; i < plan_.node.size(); ++i) {
       if (plan_.node[i] < 0) continue;
       const double* force = force_.data() + BodyPlan::at(static_cast<int>(i));
-      saved.force.plane()[static_cast<std::size_t>(plan_.node[i])] = {force[0], force[lanes]};
+      saved.force.plane()[at(plan_.node[i])] = {force[0], force[lanes]};
     }
   }
   saved.energy = energy_;
@@ -132,7 +133,7 @@ void BodiesIntegrator::restore(const SavedState& saved) {
   load(saved.u, saved.v);
   for (std::size_t i = 0; beta_ && i < plan_.node.size(); ++i) {
     if (plan_.node[i] < 0) continue;
-    const Vec2 force = saved.force.plane()[static_cast<std::size_t>(plan_.node[i])];
+    const Vec2 force = saved.force.plane()[at(plan_.node[i])];
     double* to = force_.data() + BodyPlan::at(static_cast<int>(i));
     to[0] = force.x;
     to[lanes] = force.y;

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/sum.hpp"
 
 namespace rondo::dynamics {
@@ -47,12 +48,12 @@ void add_groups(const Model& model, BodyPlan& plan) {
   RONDO_DEMAND(held.size() + n_free == model.free.size(), held.size(), n_free, model.free.size());
   plan.row.assign(model.n_nodes(), -1);
   for (std::size_t i = 0; i < plan.node.size(); ++i)
-    if (plan.node[i] >= 0) plan.row[static_cast<std::size_t>(plan.node[i])] = static_cast<int>(i);
+    if (plan.node[i] >= 0) plan.row[at(plan.node[i])] = static_cast<int>(i);
 }
 
 /// Adds the constants of a row of a group.
 void add_constant(const Model& model, const BodyGroup& group, int row, BodyPlan& plan) {
-  const auto node = static_cast<std::size_t>(plan.node[static_cast<std::size_t>(row)]);
+  const auto node = static_cast<std::size_t>(plan.node[at(row)]);
   RONDO_ASSERT(model.mass[node] > 0.0, node, model.mass[node]);
   const Vec2 arm = model.reference[node] - group.center;
   double* c = plan.constants.data() + BodyPlan::at(row);
@@ -66,7 +67,7 @@ void add_constants(const Model& model, BodyPlan& plan) {
   plan.constants = LargeArray(plan.n_packs * 4 * lanes);
   for (BodyGroup& group : plan.groups) {
     if (!group.held()) {
-      const FreeBody& body = model.free_bodies[static_cast<std::size_t>(group.body)];
+      const FreeBody& body = model.free_bodies[at(group.body)];
       group.mass = body.mass;
       group.center = body.center;
     }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/integrators/fused/tail/implicit_tail.hpp"
 #include "rondo/integrators/fused/tail/massless_tail.hpp"
 #include "rondo/integrators/implicit/ring_operator.hpp"
@@ -149,9 +150,7 @@ std::size_t CyclicIntegrator::chunk_of(int sector) const noexcept {
 /// All in one chunk, and out of what its neighbours advance of it.
 bool CyclicIntegrator::hold_within(std::span<const int> candidates) noexcept {
   RONDO_ASSERT(!candidates.empty(), plan_.place.size());
-  const auto sector = [&](int candidate) {
-    return plan_.place[static_cast<std::size_t>(candidate)].sector;
-  };
+  const auto sector = [&](int candidate) { return plan_.place[at(candidate)].sector; };
   holder_ = chunk_of(sector(candidates.front()));
   if (plan_.halo == Halo::ring) return true;
   const CyclicChunkRange& chunk = plan_.chunks[holder_];

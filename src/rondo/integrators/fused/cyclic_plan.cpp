@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/model/pressure.hpp"
 
 namespace rondo::dynamics {
@@ -95,7 +96,7 @@ void add_mirror(const SectorStiffness& k, CyclicPlan& plan) {
     for (const SectorStiffness::Entry& e : k.row(static_cast<std::size_t>(a))) {
       if (std::abs(e.column - a) > 1) return;
       const int layer = e.column - a + 1, place = e.shift + 1;
-      blocks[static_cast<std::size_t>(layer)][static_cast<std::size_t>(place)] = e.block;
+      blocks[at(layer)][at(place)] = e.block;
       largest = std::max(largest, std::abs(e.block[0]));
     }
     const auto block = [&](std::size_t layer) {
@@ -103,7 +104,7 @@ void add_mirror(const SectorStiffness& k, CyclicPlan& plan) {
       worst = std::max(worst, deviation(here, left, right));
       return mirrored(here, left, right);
     };
-    rows[static_cast<std::size_t>(a)] = {block(0), block(1), block(2)};
+    rows[at(a)] = {block(0), block(1), block(2)};
   }
   constexpr double round_off = 1e-11;  // of the coordinates, over the size of an element
   if (worst <= round_off * largest) plan.mirror = std::move(rows);
@@ -123,7 +124,7 @@ void add_order(const SectorStiffness& k, CyclicPlan& plan) {
 /// (nodes_per_sector) row of each node of a sector; n_local where it is held.
 std::vector<std::size_t> rows_of(const SectorStiffness& k) {
   std::vector<std::size_t> row_of(static_cast<std::size_t>(k.nodes_per_sector), k.n_local());
-  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[static_cast<std::size_t>(k.nodes[a])] = a;
+  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[at(k.nodes[a])] = a;
   return row_of;
 }
 
@@ -132,7 +133,7 @@ void add_loads(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
   const std::vector<std::size_t> row_of = rows_of(k);
   std::map<std::pair<std::size_t, int>, CyclicLoad> loads;  // by row and load
   for (const NodalLoad& l : nodal_loads(model)) {
-    const std::size_t a = row_of[static_cast<std::size_t>(l.node % k.nodes_per_sector)];
+    const std::size_t a = row_of[at(l.node % k.nodes_per_sector)];
     RONDO_ASSERT(l.node / k.nodes_per_sector < k.n_sectors, l.node, k.n_sectors);
     if (a == k.n_local()) continue;
     CyclicLoad& on_row = loads[{a, l.load}];
@@ -158,7 +159,7 @@ void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan)
   const std::vector<std::size_t> row_of = rows_of(k);
   for (std::size_t i = 0; i < model.contact->nodes.size(); ++i) {
     const int node = model.contact->nodes[i];
-    const std::size_t a = row_of[static_cast<std::size_t>(node % k.nodes_per_sector)];
+    const std::size_t a = row_of[at(node % k.nodes_per_sector)];
     RONDO_DEMAND(a < k.n_local(), node);
     int& row = plan.contact_row[a];
     if (row < 0) {
@@ -166,12 +167,11 @@ void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan)
       plan.candidate.emplace_back(static_cast<std::size_t>(k.n_sectors), -1);
     }
     const int sector = node / k.nodes_per_sector;
-    plan.candidate[static_cast<std::size_t>(row)][static_cast<std::size_t>(sector)] =
-        static_cast<int>(i);
+    plan.candidate[at(row)][at(sector)] = static_cast<int>(i);
     plan.place.push_back({static_cast<int>(a), sector});
   }
   for (int a = 0; a < plan.n_local; ++a) {
-    if (plan.contact_row[static_cast<std::size_t>(a)] < 0) continue;
+    if (plan.contact_row[at(a)] < 0) continue;
     const int strip = a / kernels::most_rows;
     if (plan.last_contact_strip < 0) plan.first_contact_strip = strip;
     plan.last_contact_strip = strip;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/integrators/fused/tail/implicit_tail.hpp"
 #include "rondo/integrators/fused/tail/massless_tail.hpp"
 
@@ -39,15 +40,14 @@ class SparseIntegrator::Rows final : public NodeFields {
  public:
   Rows(SparseIntegrator& of, const NodeSet& nodes) : of_(of) {
     std::vector<std::size_t> row(of.model_.n_nodes());
-    for (std::size_t i = 0; i < of.plan_.node.size(); ++i)
-      row[static_cast<std::size_t>(of.plan_.node[i])] = i;
+    for (std::size_t i = 0; i < of.plan_.node.size(); ++i) row[at(of.plan_.node[i])] = i;
     RONDO_ASSERT(std::ranges::all_of(nodes.node,
                                      [&](int node) {
-                                       const std::size_t i = row[static_cast<std::size_t>(node)];
+                                       const std::size_t i = row[at(node)];
                                        return of.plan_.node[i] == node;
                                      }),
                  nodes.size());  // none is clamped
-    for (const int node : nodes.node) rows_.push_back(row[static_cast<std::size_t>(node)]);
+    for (const int node : nodes.node) rows_.push_back(row[at(node)]);
   }
 
   void read_displacement(PlaneField& u) const noexcept override {
@@ -163,12 +163,11 @@ void SparseIntegrator::save_displacement(Nodes of, Field& u) const noexcept {
   const double* now = u_[parity(step_)].data();
   if (of == Nodes::candidates) {
     for (const SparseCandidate& c : plan_.candidates)
-      u.plane()[static_cast<std::size_t>(plan_.node[static_cast<std::size_t>(c.row)])] =
-          pair_at(now, c.row);
+      u.plane()[at(plan_.node[static_cast<std::size_t>(c.row)])] = pair_at(now, c.row);
     return;
   }
   for (std::size_t i = 0; i < plan_.node.size(); ++i)
-    u.plane()[static_cast<std::size_t>(plan_.node[i])] = pair_at(now, static_cast<int>(i));
+    u.plane()[at(plan_.node[i])] = pair_at(now, static_cast<int>(i));
 }
 
 void SparseIntegrator::save_velocity(Field& v) const noexcept {
@@ -176,13 +175,12 @@ void SparseIntegrator::save_velocity(Field& v) const noexcept {
   if (plan_.wheel) {
     for (std::size_t i = 0; i < plan_.node.size(); ++i) {
       const auto row = static_cast<int>(i);
-      v.plane()[static_cast<std::size_t>(plan_.node[i])] =
-          (pair_at(now, row) - pair_at(before, row)) / model_.dt;
+      v.plane()[at(plan_.node[i])] = (pair_at(now, row) - pair_at(before, row)) / model_.dt;
     }
     return;
   }
   for (std::size_t i = 0; i < plan_.node.size(); ++i)
-    v.plane()[static_cast<std::size_t>(plan_.node[i])] = vector_at(motion_.data() + motion_at(i));
+    v.plane()[at(plan_.node[i])] = vector_at(motion_.data() + motion_at(i));
 }
 
 void SparseIntegrator::save_fields(SavedState& saved) const noexcept {
@@ -190,15 +188,12 @@ void SparseIntegrator::save_fields(SavedState& saved) const noexcept {
   save_velocity(saved.v);
   if (plan_.keeps_force)
     for (std::size_t i = 0; i < plan_.node.size(); ++i)
-      saved.force.plane()[static_cast<std::size_t>(plan_.node[i])] =
-          vector_at(motion_.data() + motion_at(i) + force_at);
+      saved.force.plane()[at(plan_.node[i])] = vector_at(motion_.data() + motion_at(i) + force_at);
   if (!plan_.wheel) return;
   const double* before = u_[parity(step_ + 1)].data();
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
-    saved.v.plane()[static_cast<std::size_t>(plan_.node[i])] =
-        vector_at(motion_.data() + motion_at(i));
-    saved.u_before.plane()[static_cast<std::size_t>(plan_.node[i])] =
-        pair_at(before, static_cast<int>(i));
+    saved.v.plane()[at(plan_.node[i])] = vector_at(motion_.data() + motion_at(i));
+    saved.u_before.plane()[at(plan_.node[i])] = pair_at(before, static_cast<int>(i));
   }
 }
 
@@ -276,7 +271,7 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
   double* motion = motion_.data() + motion_at(static_cast<std::size_t>(c.row));
   const Complex back{work.step->wheel.back_x, work.step->wheel.back_y};
   const ContactNode node{k,
-                         model_.mass[static_cast<std::size_t>(model_.contact->nodes[k])],
+                         model_.mass[at(model_.contact->nodes[k])],
                          model_.contact->tributary[k],
                          c.reference + t.u,
                          plan_.wheel ? t.v + back * t.v : t.v,

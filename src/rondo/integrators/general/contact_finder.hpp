@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "rondo/contact/segment.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/integrators/general/contact_row.hpp"
 #include "rondo/integrators/general/near_edges.hpp"
 #include "rondo/model/model.hpp"
@@ -70,7 +71,7 @@ class ContactFinder {
                     std::vector<ContactRow>& rows);
   [[nodiscard]] Vec2 outward_of(int node) const;
   [[nodiscard]] int body_of(int node) const {
-    return model_.body.empty() ? 0 : model_.body[static_cast<std::size_t>(node)];
+    return model_.body.empty() ? 0 : model_.body[at(node)];
   }
   [[nodiscard]] Box box_of_candidates() const;
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/integrators/general/step_traps.hpp"
 #include "rondo/model/pressure.hpp"
 
@@ -77,7 +78,6 @@ void GeneralIntegrator::add_active(std::span<const ActiveContact> more) {
 void GeneralIntegrator::move_ring(const ContactStep& step) noexcept {
   RingMotion& motion = ring_->motion();
   const std::span<const int> nodes = ring_->nodes(), around = ring_->neighbours();
-  const auto at = [](int node) { return static_cast<std::size_t>(node); };
   RONDO_ASSERT(
       motion.place.size() == nodes.size() + around.size() && motion.rate.size() == around.size(),
       motion.place.size(), motion.rate.size(), nodes.size());
@@ -138,8 +138,7 @@ void GeneralIntegrator::correct_implicit(const BodyFrames& frames, StepEnergy& e
   const BodyFrame& frame = frames.of(model_, static_cast<std::size_t>(nodes.front()));
   const ImplicitEnergy more =
       implicit.solve(frame.frame.spin, model_.contact ? &frame.contact : nullptr, v, report);
-  for (std::size_t i = 0; i < nodes.size(); ++i)
-    state_.v_next.plane()[static_cast<std::size_t>(nodes[i])] = v.at(i);
+  for (std::size_t i = 0; i < nodes.size(); ++i) state_.v_next.plane()[at(nodes[i])] = v.at(i);
   energy.strain += more.strain;
   energy.works.dissipation_stiffness += more.dissipation_stiffness;
 }

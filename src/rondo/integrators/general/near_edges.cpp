@@ -93,7 +93,7 @@ void NearEdges::find_boxes(std::span<const Vec2> positions) {
     const auto body = std::ranges::lower_bound(bodies_, surface_.body[i]) - bodies_.begin();
     RONDO_ASSERT(static_cast<std::size_t>(body) < boxes_.size(), body, boxes_.size());
     for (const int node : surface_.edges[i])
-      widen(boxes_[static_cast<std::size_t>(body)], positions[at(node)], (1.0 + skin) * reach_);
+      widen(boxes_[at(body)], positions[at(node)], (1.0 + skin) * reach_);
   }
 }
 

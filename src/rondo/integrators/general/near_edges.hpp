@@ -8,6 +8,7 @@
 
 #include "rondo/contact/search.hpp"
 #include "rondo/contact/segment.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/model/model.hpp"
 
 namespace rondo::dynamics {
@@ -49,7 +50,7 @@ class NearEdges {
   [[nodiscard]] bool may_touch(int node, int edge) const noexcept;
   [[nodiscard]] bool across_a_wall(std::size_t node, const mesh::Edge& edge) const noexcept;
   [[nodiscard]] int body_of(int node) const noexcept {
-    return model_.body.empty() ? 0 : model_.body[static_cast<std::size_t>(node)];
+    return model_.body.empty() ? 0 : model_.body[at(node)];
   }
 
   const Model& model_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -29,14 +30,13 @@ ImplicitContact::ImplicitContact(const Model& model, const NodeSet& nodes)
                model.contact->tributary.size(), model.contact->nodes.size());
   std::vector<int> candidate(model.n_nodes(), -1);
   const std::vector<int>& of = model.contact->nodes;
-  for (std::size_t k = 0; k < of.size(); ++k)
-    candidate[static_cast<std::size_t>(of[k])] = static_cast<int>(k);
+  for (std::size_t k = 0; k < of.size(); ++k) candidate[at(of[k])] = static_cast<int>(k);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (nodes.node[i] < 0) continue;
-    const int k = candidate[static_cast<std::size_t>(nodes.node[i])];
+    const int k = candidate[at(nodes.node[i])];
     if (k < 0) continue;
     candidates_.push_back({i, static_cast<std::size_t>(k)});
-    is_held_[static_cast<std::size_t>(k)] = 1;
+    is_held_[at(k)] = 1;
   }
   columns_.resize(nodes.sectors > 0 ? nodes.size() / nodes.row_size : candidates_.size());
   active_.reserve(2 * candidates_.size());
@@ -86,7 +86,7 @@ bool ImplicitContact::find(const ContactStep& step, const PlaneField& u, const P
         model_.contact->ground.touches(step.center + step.rotation * arm);
     if (touches.count > 0) fill_column(c, implicit);
     for (int t = 0; t < touches.count; ++t) {
-      const contact::Touch& touch = touches.at[static_cast<std::size_t>(t)];
+      const contact::Touch& touch = touches.at[at(t)];
       ActiveContact a;
       a.candidate = k;
       a.normal = touch.normal;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -19,10 +20,9 @@ double product_of(const PlaneField& a, const PlaneField& b) noexcept {
 bool any_candidate(const Model& model, const NodeSet& nodes) {
   if (!model.contact) return false;
   std::vector<char> is_candidate(model.n_nodes(), 0);
-  for (const int node : model.contact->nodes) is_candidate[static_cast<std::size_t>(node)] = 1;
-  return std::ranges::any_of(nodes.node, [&](int node) {
-    return node >= 0 && is_candidate[static_cast<std::size_t>(node)];
-  });
+  for (const int node : model.contact->nodes) is_candidate[at(node)] = 1;
+  return std::ranges::any_of(nodes.node,
+                             [&](int node) { return node >= 0 && is_candidate[at(node)]; });
 }
 
 }  // namespace

@@ -115,8 +115,8 @@ void RingArc::read_blocks(const Model& model) {
     const Eigen::Index a = std::ranges::find(around_rows_, column) - around_rows_.begin();
     auto& matrix = shift == 0 ? around_here_ : shift > 0 ? around_right_ : around_left_;
     for (const Eigen::Index c : {Eigen::Index{0}, Eigen::Index{1}}) {
-      matrix(c, a) = -block[static_cast<std::size_t>(2 * c)];
-      matrix(c, n + a) = -block[static_cast<std::size_t>(2 * c + 1)];
+      matrix(c, a) = -block[at(2 * c)];
+      matrix(c, n + a) = -block[at(2 * c + 1)];
     }
   });
   around_ = RingRows(static_cast<int>(2 * n), k.n_sectors);

@@ -29,7 +29,7 @@ std::vector<int> nodes_beside(const fem::BlockCsr& k, std::span<const int> nodes
   for (const int node : nodes) seen[at(node)] = 1;
   for (const int node : nodes)
     for (auto b = k.row_start[at(node)]; b < k.row_start[at(node) + 1]; ++b) {
-      const int other = k.column[static_cast<std::size_t>(b)];
+      const int other = k.column[at(b)];
       if (std::exchange(seen[at(other)], char{1}) == 0) beside.push_back(other);
     }
   std::sort(beside.begin(), beside.end());
@@ -59,8 +59,8 @@ void RingMatrix::take_rows(const fem::BlockCsr& k) {
   row_start_.push_back(0);
   for (const int node : nodes_) {
     for (auto b = k.row_start[at(node)]; b < k.row_start[at(node) + 1]; ++b) {
-      column_.push_back(place[at(k.column[static_cast<std::size_t>(b)])]);
-      values_.push_back(k.values[static_cast<std::size_t>(b)]);
+      column_.push_back(place[at(k.column[at(b)])]);
+      values_.push_back(k.values[at(b)]);
     }
     row_start_.push_back(static_cast<int>(column_.size()));
     held_.push_back(sum_of_row(row_start_.size() - 2));

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/integrators/massless/ring_contact.hpp"
 
@@ -56,7 +57,7 @@ ContactReport MasslessContact::report(const ContactStep& step, Vec2 center,
   for (const RingContact& c : now_.contacts) {
     const std::size_t i = static_cast<std::size_t>(c.node);
     RONDO_ASSERT(i < nodes().size(), c.node, nodes().size());
-    const Vec2 arm = model_.reference[static_cast<std::size_t>(nodes()[i])] + motion_.place[i];
+    const Vec2 arm = model_.reference[at(nodes()[i])] + motion_.place[i];
     ActiveContact a = active_of(c);
     a.before = to_frame(c.normal, velocity_before(step, arm, motion_.before[i]));
     a.after = to_frame(c.normal, drive_of(step, arm) + step.rotation_next * velocity_[i]);

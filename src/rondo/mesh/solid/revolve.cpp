@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/edges.hpp"
 #include "rondo/mesh/solid/face.hpp"
 #include "rondo/mesh/solid/wheel.hpp"
@@ -54,7 +55,7 @@ class Sweep {
           for (const int node : section_.cells[e])
             for (const std::size_t line :
                  {static_cast<std::size_t>(c), (static_cast<std::size_t>(c) + 1) % n})
-              used[line][static_cast<std::size_t>(node)] = 1;
+              used[line][at(node)] = 1;
     for (const std::vector<char>& line : used) {
       lines_.number.emplace_back(section_.n_nodes(), -1);
       for (std::size_t i = 0; i < line.size(); ++i)
@@ -67,8 +68,7 @@ class Sweep {
   [[nodiscard]] int node(int sector, int column, int of_section) const {
     const int line = column % columns_.columns;
     const int there = (sector + column / columns_.columns) % columns_.n_sectors;
-    const int number =
-        lines_.number[static_cast<std::size_t>(line)][static_cast<std::size_t>(of_section)];
+    const int number = lines_.number[at(line)][at(of_section)];
     return there * lines_.nodes_per_sector + number;
   }
 
@@ -78,7 +78,7 @@ class Sweep {
     for (int line = 0; line < n_lines; ++line) {
       const double angle = 2.0 * std::numbers::pi * line / n_lines - 0.5 * std::numbers::pi;
       const Vec2 direction = direction_at(angle);
-      const auto& number = lines_.number[static_cast<std::size_t>(line % columns_.columns)];
+      const auto& number = lines_.number[at(line % columns_.columns)];
       for (std::size_t i = 0; i < number.size(); ++i) {
         if (number[i] < 0) continue;
         if (clamped[i]) mesh.clamped.push_back(static_cast<int>(mesh.n_nodes()));
@@ -141,9 +141,9 @@ class Sweep {
     std::vector<double> area(mesh.n_nodes(), 0.0);
     for (const Face& face : surface->faces) {
       const std::array<Vec3, 4> share = face_shares(face_corners(mesh, face));
-      for (std::size_t i = 0; i < 4; ++i) area[static_cast<std::size_t>(face[i])] += norm(share[i]);
+      for (std::size_t i = 0; i < 4; ++i) area[at(face[i])] += norm(share[i]);
     }
-    for (const int node : mesh.clamped) area[static_cast<std::size_t>(node)] = 0.0;
+    for (const int node : mesh.clamped) area[at(node)] = 0.0;
     for (std::size_t i = 0; i < area.size(); ++i)
       if (area[i] > 0.0) {
         mesh.boundary.push_back(static_cast<int>(i));
@@ -181,7 +181,7 @@ Mesh revolve(const Mesh& section, const Columns& columns, std::string_view conta
   for (const Cell& cell : section.cells) {
     RONDO_DEMAND(n_corners(cell) == 4, cell[0], cell[1], cell[2]);
     for (const int node : cell) {
-      const double r = section.coordinates[static_cast<std::size_t>(node)].x;
+      const double r = section.coordinates[at(node)].x;
       RONDO_DEMAND(r > 0.0, node, r);
     }
   }

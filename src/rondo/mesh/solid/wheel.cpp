@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::mesh {
 namespace {
@@ -60,7 +61,7 @@ double drop(const Wheel& wheel, double z) {
 /// crown grows from the rim to the base of the tread, so that the tread's depth is constant.
 void add_nodes(const Wheel& wheel, const std::vector<double>& z, Mesh& mesh) {
   const std::vector<double> radii = layer_radii(wheel.disk);
-  const double rim = radii.front(), base = radii[static_cast<std::size_t>(wheel.disk.radial)];
+  const double rim = radii.front(), base = radii[at(wheel.disk.radial)];
   for (const double r : radii)
     for (const double place : z) {
       const double part = r < base ? (r - rim) / (base - rim) : 1.0;
@@ -143,7 +144,6 @@ Columns columns_of(const Wheel& wheel, const Mesh& section) {
 
 std::size_t n_wheel_nodes(const Wheel& wheel) noexcept {
   const Disk& d = wheel.disk;
-  const auto at = [](int n) { return static_cast<std::size_t>(n); };
   const std::size_t across = at(wheel.axial) + 1;
   if (!d.tread) return at(d.circumferential) * (at(d.radial) + 1) * across;
   const int columns = d.tread->land_columns + d.tread->groove_columns;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "rondo/core/index.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 #include "rondo/model/stability/lanczos.hpp"
 
@@ -17,16 +18,15 @@ class ScaledStiffness {
   ScaledStiffness(const fem::BlockCsr& k, std::span<const double> mass, std::span<const int> free,
                   int threads)
       : k_(k), free_(free), threads_(threads), scale_(free.size()), u_(k.n_rows()), p_(k.n_rows()) {
-    for (std::size_t i = 0; i < free.size(); ++i)
-      scale_[i] = 1.0 / std::sqrt(mass[static_cast<std::size_t>(free[i])]);
+    for (std::size_t i = 0; i < free.size(); ++i) scale_[i] = 1.0 / std::sqrt(mass[at(free[i])]);
   }
   [[nodiscard]] Eigen::Index size() const { return static_cast<Eigen::Index>(2 * free_.size()); }
   void product(const double* x, double* y) {
     for (std::size_t i = 0; i < free_.size(); ++i)
-      u_[static_cast<std::size_t>(free_[i])] = scale_[i] * Vec2{x[2 * i], x[2 * i + 1]};
+      u_[at(free_[i])] = scale_[i] * Vec2{x[2 * i], x[2 * i + 1]};
     apply(k_, u_, p_, threads_);
     for (std::size_t i = 0; i < free_.size(); ++i) {
-      const Vec2 p = scale_[i] * p_[static_cast<std::size_t>(free_[i])];
+      const Vec2 p = scale_[i] * p_[at(free_[i])];
       y[2 * i] = p.x;
       y[2 * i + 1] = p.y;
     }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::dynamics {
 namespace {
 
@@ -23,13 +25,12 @@ RimValues values_of(const StiffnessProduct& a_times, std::span<const Vec2> refer
   std::vector<Vec2> u(reference.size()), force(reference.size());
   Eigen::Matrix3d scaled = Eigen::Matrix3d::Zero();
   for (std::size_t b = 0; b < 3; ++b) {
-    for (const int node : free)
-      u[static_cast<std::size_t>(node)] = rigid(b, static_cast<std::size_t>(node));
+    for (const int node : free) u[at(node)] = rigid(b, static_cast<std::size_t>(node));
     a_times(u, force);
     for (std::size_t a = 0; a < 3; ++a) {
       double sum = a == b && a < 2 ? rim.spring[a] : 0.0;
       for (const int node : free)
-        sum += dot(rigid(a, static_cast<std::size_t>(node)), force[static_cast<std::size_t>(node)]);
+        sum += dot(rigid(a, static_cast<std::size_t>(node)), force[at(node)]);
       scaled(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) =
           sum / std::sqrt(rim.inertia[a]) / std::sqrt(rim.inertia[b]);
     }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -111,8 +112,7 @@ void Pgd::append(const VectorXd& field, const VectorXd& load) {
 void Pgd::add_mode(const VectorXd& load) {
   std::vector<Vec2> force(body_.n_nodes());
   for (std::size_t j = 0; j < nodes_.size(); ++j)
-    force[static_cast<std::size_t>(nodes_[j])] = {-load[static_cast<Index>(2 * j) + 1],
-                                                  load[static_cast<Index>(2 * j)]};
+    force[at(nodes_[j])] = {-load[static_cast<Index>(2 * j) + 1], load[static_cast<Index>(2 * j)]};
   const std::vector<Vec2> found = body_.displacement(force);
   ++solves_;
   VectorXd field(static_cast<Index>(2 * found.size()));

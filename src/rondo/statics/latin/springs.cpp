@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 
 namespace rondo::statics {
@@ -53,7 +54,7 @@ std::vector<std::size_t> loaded_places(const fem::BlockCsr& k, std::span<const i
     double largest = 0.0;
     for (const Vec2 f : load) largest = std::max(largest, norm(f));
     for (std::size_t j = 0; j < nodes.size(); ++j)
-      if (norm(load[static_cast<std::size_t>(nodes[j])]) > round_off * largest) loaded[j] = 1;
+      if (norm(load[at(nodes[j])]) > round_off * largest) loaded[j] = 1;
   }
   std::vector<std::size_t> places;
   for (std::size_t j = 0; j < nodes.size(); ++j)
@@ -72,7 +73,7 @@ Adopted adopt(const fem::BlockCsr& k, const std::vector<int>& nodes, double dire
     std::vector<Vec2> load = load_of(k, field, c);
     const double whole = norm_of(load);
     for (std::size_t j = 0; j < nodes.size(); ++j) {
-      Vec2& f = load[static_cast<std::size_t>(nodes[j])];
+      Vec2& f = load[at(nodes[j])];
       const auto row = static_cast<Index>(2 * j);
       const Index x = 2 * static_cast<Index>(nodes[j]);
       a.fields.contact.col(c).segment<2>(row) << field(x + 1, c), -field(x, c);

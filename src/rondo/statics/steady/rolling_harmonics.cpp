@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/process_wide.hpp"
 #include "rondo/statics/imaginary.hpp"
 #include "rondo/statics/steady/fourier.hpp"
@@ -22,10 +23,6 @@ using Eigen::Index;
 
 /// Above it, transfers of the harmonics are made anew wherever fields are asked for [B].
 constexpr double most_kept = 2.5e8;
-
-std::size_t at(Index index) noexcept {
-  return static_cast<std::size_t>(index);
-}
 
 fftw_complex* raw(Complexes* values) noexcept {
   return reinterpret_cast<fftw_complex*>(values);
@@ -259,7 +256,7 @@ typename RollingHarmonics<D>::Damped RollingHarmonics<D>::damped(const Block& sp
     norms[at(k)] = norms_of<D>(layers_, order(static_cast<int>(k)), spectrum.col(k));
   Damped d;
   for (int k = 1; 2 * k < turn_; ++k) {
-    const RollingNorms& of = norms[static_cast<std::size_t>(k)];
+    const RollingNorms& of = norms[at(k)];
     const double both = 2.0 * body_.stiffness.n_sectors * std::pow(k * body_.spin, 2);  // k and -k
     d.by_mass += both * body_.mass_damping * of.mass;
     d.by_stiffness += both * body_.stiffness_damping * of.stiffness;

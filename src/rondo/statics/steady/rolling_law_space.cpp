@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rondo/contact/cone.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/statics/steady/rolling_groups.hpp"
 #include "rondo/statics/steady/rolling_law.hpp"
 
@@ -62,7 +63,7 @@ std::vector<Index> order_of(const SpaceProblem& problem) {
   std::vector<Index> order(problem.pairs.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::stable_sort(order, std::ranges::greater{}, [&](Index pair) {
-    return problem.back * problem.pairs[static_cast<std::size_t>(pair)].sample;
+    return problem.back * problem.pairs[at(pair)].sample;
   });
   return order;
 }
@@ -78,8 +79,7 @@ void sweep(const SpaceProblem& problem, const RollingDrive& drive, RollingState&
       contact::SpatialProblem local;
       const NodeVector<3> before = s.point.force.segment<3>(row);
       local.free = vec_of(NodeVector<3>(moved.segment<3>(row) - own * before));
-      for (Index c = 0; c < 3; ++c)
-        local.delassus[static_cast<std::size_t>(c)] = {own(c, 0), own(c, 1), own(c, 2)};
+      for (Index c = 0; c < 3; ++c) local.delassus[at(c)] = {own(c, 0), own(c, 1), own(c, 2)};
       const NodeVector<3> change =
           node_vector(contact::solve_spatial(local, drive.friction).impulse) - before;
       if (change.isZero(0.0) || !change.allFinite()) continue;

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/statics/imaginary.hpp"
 #include "rondo/statics/steady/complex_lu.hpp"
 
@@ -20,10 +21,10 @@ std::vector<int> distances(const fem::SectorBlocks<D>& k, std::span<const int> c
   std::vector<int> distance(k.n_local(), -1), next(candidates.begin(), candidates.end());
   for (int d = 0; !next.empty(); ++d) {
     std::vector<int> reached;
-    for (const int row : next) distance[static_cast<std::size_t>(row)] = d;
+    for (const int row : next) distance[at(row)] = d;
     for (const int row : next)
       for (const auto& e : k.row(static_cast<std::size_t>(row))) {
-        int& of = distance[static_cast<std::size_t>(e.column)];
+        int& of = distance[at(e.column)];
         if (of < 0) of = d + 1, reached.push_back(e.column);
       }
     next = std::move(reached);
@@ -174,7 +175,7 @@ RollingLayers<D> rolling_layers(const fem::SectorBlocks<D>& k, std::span<const i
   std::vector<Index> place(k.n_local());
   const auto add = [&](int row) {
     const auto a = static_cast<std::size_t>(row);
-    RollingLayer<D>& layer = layers[static_cast<std::size_t>(deepest - distance[a])];
+    RollingLayer<D>& layer = layers[at(deepest - distance[a])];
     place[a] = std::ssize(layer.rows);
     layer.rows.push_back(row);
     layer.mass.push_back(mass[k.node(a, 0)]);
@@ -243,8 +244,7 @@ RollingNorms norms_of(const RollingLayers<D>& layers, const RollingOrder& order,
     const auto sum = [&](const auto& entries, const std::vector<int>& columns) {
       double all = 0.0;
       for (const RollingEntry<D>& e : entries)
-        all += form(e, layer.rows[static_cast<std::size_t>(e.row)],
-                    columns[static_cast<std::size_t>(e.column)]);
+        all += form(e, layer.rows[at(e.row)], columns[at(e.column)]);
       return all;
     };
     n.stiffness += sum(layer.own, layer.rows);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "rondo/core/index.hpp"
+
 namespace rondo::statics {
 namespace {
 
@@ -66,7 +68,7 @@ RollingSystem<D>::RollingSystem(const RollingProblem<D>& problem, const RollingD
 
 template <int D>
 NodeVector<D - 1> RollingSystem<D>::direction(Index pair) const noexcept {
-  const Vec2 d = statuses_[static_cast<std::size_t>(pair)].direction;
+  const Vec2 d = statuses_[at(pair)].direction;
   NodeVector<D - 1> e;
   e[0] = d.x;
   if constexpr (D == 3) e[1] = d.y;
@@ -77,8 +79,7 @@ NodeVector<D - 1> RollingSystem<D>::direction(Index pair) const noexcept {
 template <int D>
 NodeMatrix<D - 1> RollingSystem<D>::turning(Index pair) const noexcept {
   const NodeVector<D - 1> e = direction(pair);
-  return statuses_[static_cast<std::size_t>(pair)].share *
-         (NodeMatrix<D - 1>::Identity() - e * e.transpose());
+  return statuses_[at(pair)].share * (NodeMatrix<D - 1>::Identity() - e * e.transpose());
 }
 
 /// The shear of a pair that slides follows from its normal force in the plane, where its direction
@@ -86,7 +87,7 @@ NodeMatrix<D - 1> RollingSystem<D>::turning(Index pair) const noexcept {
 template <int D>
 void RollingSystem<D>::number() {
   for (Index j = 0; j < problem_.n_pairs(); ++j) {
-    const Status status = statuses_[static_cast<std::size_t>(j)].status;
+    const Status status = statuses_[at(j)].status;
     if (status == Status::open) continue;
     const bool sticks = status == Status::stick;
     const bool follows = drive_.friction == 0.0 || (D == 2 && !sticks);

@@ -9,6 +9,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -23,8 +24,7 @@ std::vector<double> point_weights(const io::RunReader& run, const SnapshotChoice
   const std::vector<double>& mass = run.mass();
   std::vector<double> weight;
   if (choice.quantity == io::Quantity::contact)
-    for (const int node : run.mesh().boundary)
-      weight.push_back(mass[static_cast<std::size_t>(node)]);
+    for (const int node : run.mesh().boundary) weight.push_back(mass[at(node)]);
   else
     weight = mass;
   for (double& w : weight) {
@@ -65,8 +65,7 @@ RunSnapshots::RunSnapshots(std::span<const io::RunReader> runs, std::vector<Snap
   weight_ = point_weights(run, choice);
   RONDO_DEMAND(order_.size() == n_points && weight_.size() == n_points, order_.size(),
                weight_.size(), n_points);
-  for (const int point : order_)
-    root_.push_back(std::sqrt(weight_[static_cast<std::size_t>(point)]));
+  for (const int point : order_) root_.push_back(std::sqrt(weight_[at(point)]));
   components_ = run.n_components(choice.quantity);
   RONDO_DEMAND(components_ == 2 || components_ == 3, components_);
   row_.resize(n_points);
@@ -114,10 +113,8 @@ void RunSnapshots::read_order(const SnapshotColumn& column, std::size_t first, s
     read_points(column, first, field, axial);
   } else {
     read_points(column, 0, row_, axial_row_);
-    for (std::size_t i = 0; i < count; ++i)
-      field[i] = row_[static_cast<std::size_t>(order_[first + i])];
-    for (std::size_t i = 0; i < axial.size(); ++i)
-      axial[i] = axial_row_[static_cast<std::size_t>(order_[first + i])];
+    for (std::size_t i = 0; i < count; ++i) field[i] = row_[at(order_[first + i])];
+    for (std::size_t i = 0; i < axial.size(); ++i) axial[i] = axial_row_[at(order_[first + i])];
     rectify(column, field, axial);
   }
   bool in_range = true;

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "rondo/core/index.hpp"
 #include "rondo/io/run_reader.hpp"
 #include "rondo/rom/chosen_modes.hpp"
 #include "rondo/study/pod/pod_input.hpp"
@@ -70,8 +71,8 @@ std::vector<char> widened(const std::vector<char>& touched) {
   const std::ptrdiff_t reach = (std::ranges::count(touched, 1) + 2) / 3;
   std::vector<char> wide(touched.size(), 0);
   for (std::ptrdiff_t k = 0; k < n; ++k)
-    for (std::ptrdiff_t d = -reach; touched[static_cast<std::size_t>(k)] && d <= reach; ++d)
-      wide[static_cast<std::size_t>(((k + d) % n + n) % n)] = 1;
+    for (std::ptrdiff_t d = -reach; touched[at(k)] && d <= reach; ++d)
+      wide[at(((k + d) % n + n) % n)] = 1;
   return wide;
 }
 

@@ -11,6 +11,7 @@
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/overlap.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/physical_group.hpp"
 #include "rondo/output/run_options.hpp"
 
@@ -20,8 +21,7 @@ namespace {
 void refuse_free_bodies(const Case& c, const mesh::Mesh& mesh) {
   const mesh::Bodies bodies = mesh::find_bodies(mesh);
   std::vector<char> held(static_cast<std::size_t>(bodies.count), 0);
-  for (const int node : mesh.clamped)
-    held[static_cast<std::size_t>(bodies.of_node[static_cast<std::size_t>(node)])] = 1;
+  for (const int node : mesh.clamped) held[at(bodies.of_node[static_cast<std::size_t>(node)])] = 1;
   const auto free = std::count(held.begin(), held.end(), 0);
   if (free > 0)
     throw case_error(

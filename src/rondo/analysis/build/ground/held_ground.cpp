@@ -8,6 +8,7 @@
 
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 constexpr double touching = 1e-6;
 
 Vec2 place_of(const mesh::Mesh& mesh, int node) {
-  return mesh.coordinates[static_cast<std::size_t>(node)];
+  return mesh.coordinates[at(node)];
 }
 
 /// Largest distance of held nodes from the center towards the ground below a wheel that leans, in
@@ -25,7 +26,7 @@ double reach_below(const mesh::Mesh& mesh, double camber) {
   double reach = 0.0;
   for (const int node : mesh.clamped) {
     const double radius = norm(place_of(mesh, node));
-    const double axial = mesh.is_solid() ? mesh.axial[static_cast<std::size_t>(node)] : 0.0;
+    const double axial = mesh.is_solid() ? mesh.axial[at(node)] : 0.0;
     reach = std::max(reach, -GroundFrame(camber).from_wheel({0.0, -radius, axial}).y);
   }
   return reach;

@@ -10,6 +10,7 @@
 
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/region_sizes.hpp"
 
 namespace rondo::study {
@@ -76,7 +77,7 @@ void warn_of_section(const Case& c, const mesh::Mesh& mesh, std::vector<std::str
   RONDO_DEMAND(mesh.axial.size() == mesh.n_nodes(), mesh.axial.size(), mesh.n_nodes());
   double left = std::numeric_limits<double>::infinity(), right = -left;
   for (const int node : mesh.boundary) {
-    const double z = mesh.axial[static_cast<std::size_t>(node)];
+    const double z = mesh.axial[at(node)];
     left = std::min(left, z);
     right = std::max(right, z);
   }

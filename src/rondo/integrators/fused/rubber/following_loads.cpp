@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -28,14 +29,13 @@ FollowingLoads::FollowingLoads(const Model& model, const SparsePlan& plan) {
   for (std::size_t l = 0; l < model.pressures.size(); ++l)
     for (const mesh::Edge& edge : model.pressures[l].edges) {
       const auto end = [&](int node) {
-        const int row = plan.row_of_node[static_cast<std::size_t>(node)];
+        const int row = plan.row_of_node[at(node)];
         if (row < 0) return End{2 * plan.node.size(), 0, false};
         const auto r = static_cast<std::size_t>(row);
         return End{2 * r, place_of(plan, r, static_cast<int>(l)), true};
       };
       edges_.push_back({end(edge[0]), end(edge[1]),
-                        model.reference[static_cast<std::size_t>(edge[1])] -
-                            model.reference[static_cast<std::size_t>(edge[0])]});
+                        model.reference[at(edge[1])] - model.reference[at(edge[0])]});
     }
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/fem/hyperelastic/quadrilateral.hpp"
 
 namespace rondo::dynamics {
@@ -22,10 +23,8 @@ std::vector<int> element_order(const RubberPart& rubber, std::span<const int> ro
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t e = 0; e < order.size(); ++e) {
     last[e] = -1;  // all held
-    for (const int node : rubber.cells[e])
-      last[e] = std::max(last[e], row[static_cast<std::size_t>(node)]);
+    for (const int node : rubber.cells[e]) last[e] = std::max(last[e], row[at(node)]);
   }
-  const auto at = [](int e) { return static_cast<std::size_t>(e); };
   std::ranges::stable_sort(order, [&](int a, int b) {
     if (rubber.material[at(a)] != rubber.material[at(b)])
       return rubber.material[at(a)] < rubber.material[at(b)];
@@ -62,9 +61,7 @@ void add_packs(const RubberPart& rubber, std::span<const int> row, RubberPlan& p
   std::size_t first = 0;
   for (std::size_t m = 0; m < rubber.materials.size(); ++m) {
     std::size_t last = first;
-    while (last < order.size() &&
-           rubber.material[static_cast<std::size_t>(order[last])] == static_cast<int>(m))
-      ++last;
+    while (last < order.size() && rubber.material[at(order[last])] == static_cast<int>(m)) ++last;
     if (last > first)
       add_material(std::span(order).subspan(first, last - first), m,
                    rubber.materials[m].branches.size(), packs_of_block, plan);
@@ -88,7 +85,7 @@ void add_geometry(const Model& model, std::span<const int> row, int zero, Rubber
   plan.geometry = LargeArray(plan.n_packs * 6 * lanes);
   plan.node = LargeArrayOf<std::int32_t>(plan.n_packs * corners_of_element * lanes);
   for (std::size_t i = 0; i < plan.element.size(); ++i) {
-    const mesh::Cell& cell = model.rubber->cells[static_cast<std::size_t>(plan.element[i])];
+    const mesh::Cell& cell = model.rubber->cells[at(plan.element[i])];
     RONDO_ASSERT(mesh::n_corners(cell) == corners_of_element, plan.element[i]);
     rubber::Corners<double> x;
     for (std::size_t c = 0; c < corners_of_element; ++c) {
@@ -117,9 +114,9 @@ std::vector<std::vector<std::int32_t>> corners_on_rows(const RubberPart& rubber,
     const auto e = static_cast<std::size_t>(plan.element[i]);
     if (std::exchange(seen[e], 1)) continue;
     for (std::size_t c = 0; c < corners_of_element; ++c) {
-      const int r = row[static_cast<std::size_t>(rubber.cells[e][c])];
+      const int r = row[at(rubber.cells[e][c])];
       if (r < 0) continue;
-      on[static_cast<std::size_t>(r)].push_back(static_cast<std::int32_t>(
+      on[at(r)].push_back(static_cast<std::int32_t>(
           ((i / lanes * corners_of_element + c) * lanes + i % lanes) * 2));
     }
   }

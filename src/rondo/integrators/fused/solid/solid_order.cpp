@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -60,8 +61,7 @@ std::vector<int> order_from_side(const Model& model) {
 
 std::vector<int> inverse(const std::vector<int>& order) {
   std::vector<int> place(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    place[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+  for (std::size_t i = 0; i < order.size(); ++i) place[at(order[i])] = static_cast<int>(i);
   return place;
 }
 
@@ -71,7 +71,7 @@ int width_of(const SolidSector& k, const std::vector<int>& order) {
   int width = 0;
   for (std::size_t a = 0; a < k.n_local(); ++a)
     for (const SolidSector::Entry& e : k.row(a))
-      width = std::max(width, place[static_cast<std::size_t>(e.column)] - place[a]);
+      width = std::max(width, place[at(e.column)] - place[a]);
   return width;
 }
 
@@ -86,7 +86,7 @@ SolidSector in_order(const SolidSector& k, const std::vector<int>& order) {
     const auto a = static_cast<std::size_t>(row);
     out.nodes.push_back(k.nodes[a]);
     for (SolidSector::Entry e : k.row(a)) {
-      e.column = place[static_cast<std::size_t>(e.column)];
+      e.column = place[at(e.column)];
       out.entries.push_back(e);
     }
     out.row_start.push_back(out.entries.size());

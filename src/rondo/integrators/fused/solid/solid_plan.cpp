@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -97,18 +98,18 @@ void add_order(SolidPlan& plan) {
   std::vector<int> strip_of(static_cast<std::size_t>(plan.n_local));
   for (std::size_t i = 0; i < plan.strips.size(); ++i)
     for (int row = plan.strips[i].first; row < plan.strips[i].first + plan.strips[i].n_rows; ++row)
-      strip_of[static_cast<std::size_t>(row)] = static_cast<int>(i);
+      strip_of[at(row)] = static_cast<int>(i);
   for (SolidPlanStrip& strip : plan.strips)
     for (int row = strip.first; row < strip.first + strip.n_rows; ++row)
-      for (const SolidBlock& b : plan.stiffness.blocks[static_cast<std::size_t>(row)])
-        strip.needs = std::max(strip.needs, strip_of[static_cast<std::size_t>(b.row)]);
+      for (const SolidBlock& b : plan.stiffness.blocks[at(row)])
+        strip.needs = std::max(strip.needs, strip_of[at(b.row)]);
 }
 
 /// Rows that the steps of a pass are apart.
 int rows_between_steps(const SolidPlan& plan) {
   int most = 0;
   for (const SolidPlanStrip& strip : plan.strips) {
-    const SolidPlanStrip& needed = plan.strips[static_cast<std::size_t>(strip.needs)];
+    const SolidPlanStrip& needed = plan.strips[at(strip.needs)];
     most = std::max(most, needed.first + needed.n_rows - strip.first);
   }
   return most;
@@ -150,19 +151,17 @@ void add_contact(const Model& model, SolidPlan& plan) {
   plan.contact_row.assign(k.n_local(), -1);
   if (!model.contact) return;
   std::vector<int> row_of(static_cast<std::size_t>(k.nodes_per_sector), -1);
-  for (std::size_t a = 0; a < k.n_local(); ++a)
-    row_of[static_cast<std::size_t>(k.nodes[a])] = static_cast<int>(a);
+  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[at(k.nodes[a])] = static_cast<int>(a);
   for (std::size_t i = 0; i < model.contact->nodes.size(); ++i) {
     const int node = model.contact->nodes[i];
-    const int a = row_of[static_cast<std::size_t>(node % k.nodes_per_sector)];
+    const int a = row_of[at(node % k.nodes_per_sector)];
     RONDO_DEMAND(a >= 0, node);
-    int& row = plan.contact_row[static_cast<std::size_t>(a)];
+    int& row = plan.contact_row[at(a)];
     if (row < 0) {
       row = static_cast<int>(plan.candidate.size());
       plan.candidate.emplace_back(static_cast<std::size_t>(k.n_sectors), -1);
     }
-    plan.candidate[static_cast<std::size_t>(row)]
-                  [static_cast<std::size_t>(node / k.nodes_per_sector)] = static_cast<int>(i);
+    plan.candidate[at(row)][at(node / k.nodes_per_sector)] = static_cast<int>(i);
   }
   for (const std::vector<int>& ring : plan.candidate)  // the same nodes in every sector
     RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());
@@ -173,8 +172,7 @@ void add_loads(const Model& model, SolidPlan& plan) {
     RONDO_DEMAND(pressure.force.size() == plan.rows.size(), pressure.force.size());
     std::vector<Vec3>& load = plan.loads.emplace_back();
     for (std::size_t a = 0; a < plan.rows.size(); ++a)
-      load.push_back(conj(plan.stiffness.frame[a]) *
-                     pressure.force[static_cast<std::size_t>(plan.ordered.was[a])]);
+      load.push_back(conj(plan.stiffness.frame[a]) * pressure.force[at(plan.ordered.was[a])]);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -168,7 +169,7 @@ class Rows {
     result.blocks.resize(k_.n_local());
     for (std::size_t a = 0; a < k_.n_local(); ++a) {
       for (const SolidSector::Entry& e : k_.row(a)) {
-        const Complex of = result.frame[static_cast<std::size_t>(e.column)];
+        const Complex of = result.frame[at(e.column)];
         result.blocks[a].push_back({e.column, e.shift, turned(e.block, result.frame[a], of)});
         largest_ = std::max(largest_, std::abs(result.blocks[a].back().k[0]));
       }
@@ -198,7 +199,7 @@ class Rows {
     const auto n = static_cast<std::size_t>(k_.n_sectors);
     const Complex turn = b.shift == 0 ? Complex{1.0, 0.0} : k_.turn[b.shift > 0 ? 1 : n - 1];
     const Complex sector = b.shift == 0 ? turn : turn * conj(k_.turn[0]);
-    return (conj(result.frame[a]) * (sector * result.frame[static_cast<std::size_t>(b.row)])).im;
+    return (conj(result.frame[a]) * (sector * result.frame[at(b.row)])).im;
   }
 
   /// The trios of a row; none: there is a node without its two others.
@@ -218,7 +219,7 @@ class Rows {
     }
     for (const Trio& t : trios) {
       if (!t.of[0] || !t.of[1] || !t.of[2]) return {};
-      const double radius = result.arm[static_cast<std::size_t>(t.of[0]->row)].x;
+      const double radius = result.arm[at(t.of[0]->row)].x;
       if (std::abs(sine(a, *t.of[1]) + sine(a, *t.of[2])) * radius > near_) return {};
     }
     return trios;
