@@ -54,7 +54,7 @@ FinePart::FinePart(const Model& whole, const PartFields& start)
   });
 }
 
-void FinePart::set(PartFields fields, GeneralContact::KeptImpulses impulses) {
+void FinePart::set(PartFields fields, contact::KeptImpulses impulses) {
   fields_ = std::move(fields);
   kept_ = std::move(impulses);
 }
@@ -62,7 +62,7 @@ void FinePart::set(PartFields fields, GeneralContact::KeptImpulses impulses) {
 void FinePart::attempt(long long n, std::span<const Vec2> multiplier) {
   state_.u = fields_.u;
   state_.v = fields_.v;
-  contact_.set_impulses(kept_);
+  contact_.coupled().kept = kept_;
   std::swap(contacts_, contacts_before_);
   std::fill(travel_.begin(), travel_.end(), Vec2{});
   works_ = {};
@@ -86,7 +86,7 @@ void FinePart::attempt(long long n, std::span<const Vec2> multiplier) {
 void FinePart::accept() {
   std::swap(fields_.u, state_.u);
   std::swap(fields_.v, state_.v);
-  kept_ = contact_.impulses();
+  kept_ = contact_.coupled().kept;
 }
 
 /// u += δ/2 v
