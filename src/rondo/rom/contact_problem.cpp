@@ -28,9 +28,9 @@ ContactSolver::ContactSolver(const mesh::Mesh& mesh, const rom::ReducedModel& mo
                              const contact::Ground& ground, contact::CoupledLimits limits)
     : mesh_(mesh),
       ground_(ground),
-      limits_(limits),
       nodes_(model.form == rom::ContactForm::nodes),
-      turning_(model.frame == rom::ModelFrame::turning) {
+      turning_(model.frame == rom::ModelFrame::turning),
+      coupled_(limits) {
   const std::size_t m = nodes_ ? mesh.boundary.size() : model.contact.points.size();
   warm_.resize(m);
   const double each = ContactTable::bytes(m, model.size(), m / 16);
@@ -157,56 +157,40 @@ DelassusPair ContactSolver::pair_of(std::size_t at, std::size_t from) const {
 
 void ContactSolver::make_problem(const FreeStep& step, const contact::Law& law,
                                  const StepMatrices& matrices) {
-  const std::size_t n = contacts_.size();
-  contact::CoupledProblem& p = problem_;
-  p.free.resize(n);
-  p.bounce.resize(n);
-  p.mass.resize(n);
-  p.friction.assign(n, law.friction.constant());
-  p.row_start.resize(n + 1);
-  p.column.resize(n * n);
-  p.blocks.resize(n * n);
-  impulse_.resize(n);
-  status_.resize(n);
-  p.row_start[0] = 0;
+  coupled_.clear();
   const bool implicit = matrices.key().scheme == StepScheme::midpoint;
   const ContactTable& now = *end_.table;
   const Complex back = conj(frame_rotation(step.end.angle));
   const Complex from_before = back * frame_rotation(step.before.angle);
   const Complex back_turn = conj(step.end.turn);
   const Vec2 advance = back * (step.end.center - step.before.center);
-  for (std::size_t i = 0; i < n; ++i) {
-    const PointContact& c = contacts_[i];
+  for (const PointContact& c : contacts_) {
     const Vec2 normal = c.normal, tangent = turn90(normal);
     const int earlier = point_of(c.material, before_.sectors);
     const Vec2 arm = now.point(c.point) + now.at(c.point, *step.end.q);
     const Vec2 arm_before =
         before_.table->point(earlier) + before_.table->at(earlier, *step.before.q);
     const double gap_before = c.gap - dot(normal, advance + arm - from_before * arm_before);
-    p.free[i] = {dot(normal, opening(step.end, end_, c.point, step.spin)),
-                 dot(tangent, material_velocity(step.end, end_, c.point))};
-    if (implicit) p.free[i].x += gap_before / step.dt;
-    if (!implicit && now.stands_still()) p.free[i].x = c.gap / step.dt;
-    p.bounce[i] = 0.0;
+    Vec2 free{dot(normal, opening(step.end, end_, c.point, step.spin)),
+              dot(tangent, material_velocity(step.end, end_, c.point))};
+    if (implicit) free.x += gap_before / step.dt;
+    if (!implicit && now.stands_still()) free.x = c.gap / step.dt;
+    double bounce = 0.0;
     if (law.restitution != 0.0 || law.impact != contact::Impact::moreau) {
       const Vec2 before = from_before * opening(step.before, before_, earlier, step.spin);
       const double w = dot(normal, before);
-      p.bounce[i] = contact::restitution_shift(law, w, w);
+      bounce = contact::restitution_shift(law, w, w);
     }
-    for (std::size_t j = 0; j < n; ++j) {
-      const DelassusPair w = pair_of(i, j);
-      const Vec2 from = contacts_[j].normal, side = turn90(from);
-      p.column[i * n + j] = static_cast<int>(j);
-      const Vec2 n_back = now.stands_still() ? normal : back_turn * normal;
-      const Vec2 t_back = back_turn * tangent;
-      p.blocks[i * n + j] = {form(n_back, w.normal, from), form(n_back, w.normal, side),
-                             form(t_back, w.tangential, from), form(t_back, w.tangential, side)};
-    }
-    const contact::Block& own = p.blocks[i * n + i];
-    p.mass[i] = 1.0 / std::max(own[0], own[3]);
-    p.row_start[i + 1] = static_cast<int>((i + 1) * n);
-    impulse_[i] = c.impulse;
+    coupled_.add(free, bounce, law.friction.constant(), c.impulse);
   }
+  coupled_.couple_all([&](std::size_t i, std::size_t j) -> contact::Block {
+    const DelassusPair w = pair_of(i, j);
+    const Vec2 normal = contacts_[i].normal, from = contacts_[j].normal, side = turn90(from);
+    const Vec2 n_back = now.stands_still() ? normal : back_turn * normal;
+    const Vec2 t_back = back_turn * turn90(normal);
+    return {form(n_back, w.normal, from), form(n_back, w.normal, side),
+            form(t_back, w.tangential, from), form(t_back, w.tangential, side)};
+  });
 }
 
 ContactOutcome ContactSolver::solve(const FreeStep& step, const contact::Law& law,
@@ -222,16 +206,15 @@ ContactOutcome ContactSolver::solve(const FreeStep& step, const contact::Law& la
   end_.table->prepare(points_, matrices);
   find_rim_responses(step);
   make_problem(step, law, matrices);
-  const contact::CoupledResult result =
-      contact::solve_coupled(problem_, limits_, impulse_, status_, work_);
+  const contact::CoupledResult& result = coupled_.solve();
   outcome.iterations = result.iterations;
   outcome.residual = result.residual;
   outcome.converged = result.converged;
   for (std::size_t i = 0; i < contacts_.size(); ++i) {
     PointContact& c = contacts_[i];
-    c.impulse = impulse_[i];
-    c.status = status_[i];
-    outcome.free_velocity = std::max(outcome.free_velocity, norm(problem_.free[i]));
+    c.impulse = coupled_.impulse[i];
+    c.status = coupled_.status[i];
+    outcome.free_velocity = std::max(outcome.free_velocity, norm(coupled_.problem.free[i]));
     Vec2& warm = warm_[at(c.material)];
     if (warm == Vec2{}) warm = c.impulse;
   }

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "rondo/contact/coupled/coupled.hpp"
+#include "rondo/contact/coupled/coupled_contacts.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/rom/contact_table.hpp"
 #include "rondo/rom/rim_response.hpp"
@@ -107,7 +107,6 @@ class ContactSolver {
 
   const mesh::Mesh& mesh_;
   const contact::Ground& ground_;
-  contact::CoupledLimits limits_;
   bool nodes_;                                ///< whether the points are nodes
   bool turning_;                              ///< whether the model is in the co-rotating frame
   std::unique_ptr<rom::NodeRows> node_rows_;  ///< null: points are fixed in space
@@ -119,10 +118,7 @@ class ContactSolver {
   std::vector<Vec2> warm_;  ///< by material: impulses of the previous step             [N·s/m]
   std::vector<int> points_;
   std::vector<PointResponse> rim_;  ///< at the contacts; empty: a driven rim
-  contact::CoupledProblem problem_;
-  contact::CoupledWorkspace work_;
-  std::vector<Vec2> impulse_;
-  std::vector<contact::Status> status_;
+  contact::CoupledContacts coupled_;
 };
 
 }  // namespace rondo::rom

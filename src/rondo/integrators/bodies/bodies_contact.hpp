@@ -35,16 +35,15 @@ class BodiesContact {
 
   /// Contacts of the last step.
   [[nodiscard]] const std::vector<ActiveContact>& active() const noexcept { return state_.active; }
-  [[nodiscard]] const GeneralContact::KeptImpulses& impulses() const noexcept {
-    return contact_.impulses();
+  /// See GeneralContact::coupled().
+  [[nodiscard]] const contact::CoupledContacts& coupled() const noexcept {
+    return contact_.coupled();
   }
+  [[nodiscard]] contact::CoupledContacts& coupled() noexcept { return contact_.coupled(); }
   /// Goes on from these, wherever the boundary is.
-  void restore(GeneralContact::KeptImpulses impulses) noexcept {
-    contact_.set_impulses(std::move(impulses));
+  void restore(contact::KeptImpulses impulses) noexcept {
+    contact_.coupled().kept = std::move(impulses);
     contact_.finder().forget();
-  }
-  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() {
-    return contact_.take_difficult();
   }
 
  private:

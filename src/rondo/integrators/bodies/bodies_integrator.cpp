@@ -98,7 +98,7 @@ void BodiesIntegrator::fields(State& state) const noexcept {
 
 std::vector<contact::ProblemFile> BodiesIntegrator::take_difficult() {
   if (!contact_) return {};
-  return contact_->take_difficult();
+  return contact_->coupled().difficult.take();
 }
 
 SavedState BodiesIntegrator::save() const {
@@ -116,7 +116,7 @@ SavedState BodiesIntegrator::save() const {
   }
   saved.energy = energy_;
   saved.poses = poses_;
-  if (contact_) saved.impulses = contact_->impulses();
+  if (contact_) saved.impulses = contact_->coupled().kept;
   saved.ledger = ledger_.save();
   return saved;
 }

@@ -286,7 +286,7 @@ SavedState BatchIntegrator::save() const {
     saved.u_before = zero;
   }
   save_fields(saved);
-  if (corners_) saved.impulses = corners_->impulses();
+  if (corners_) saved.impulses = corners_->coupled().kept;
   for (const auto& tail : tails_) tail->save(saved);
   if (rubber_work_) {
     saved.internal_work = rubber_work_->save();
@@ -307,7 +307,7 @@ void BatchIntegrator::restore(const SavedState& saved) {
   step_ = saved.step;
   if (rim_) rim_->restore(saved.step, saved.rim);
   restore_fields(saved);
-  if (corners_) corners_->set_impulses(saved.impulses);
+  if (corners_) corners_->coupled().kept = saved.impulses;
   for (const auto& tail : tails_) tail->restore(saved);
   if (rubber_work_) {
     rubber_work_->restore(saved.internal_work);
@@ -318,7 +318,7 @@ void BatchIntegrator::restore(const SavedState& saved) {
 
 std::vector<contact::ProblemFile> BatchIntegrator::take_difficult() {
   std::vector<contact::ProblemFile> problems;
-  if (corners_) problems = corners_->take_difficult();
+  if (corners_) problems = corners_->coupled().difficult.take();
   for (const auto& tail : tails_)
     for (contact::ProblemFile& problem : tail->take_difficult())
       problems.push_back(std::move(problem));

@@ -130,7 +130,7 @@ void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields
   for (StepContext& step : steps) step.held = any_near() ? is_held_.data() : nullptr;
   if (any_near() || !was_near) return;
   release();
-  contact_.set_impulses({});
+  contact_.coupled().kept.clear();
 }
 
 double CornerContact::unseen(const CandidateFields& fields, double astray) const noexcept {
@@ -225,7 +225,7 @@ void CornerContact::find(const StepContext& step, const CandidateFields& fields)
 void CornerContact::solve(const StepContext& step, CandidateFields& fields,
                           PartialStep& part) noexcept {
   part = {};
-  if (held_.empty()) return contact_.set_impulses({});
+  if (held_.empty()) return contact_.coupled().kept.clear();
   for (Held& h : held_) {
     RONDO_ASSERT(is_held_[h.candidate] != 0, h.candidate);  // since find()
     const CandidateMotion motion = fields.motion_of(h.candidate);

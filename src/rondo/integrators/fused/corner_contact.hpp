@@ -62,15 +62,11 @@ class CornerContact {
   void save_active(std::vector<ActiveContact>& active) const;
   /// The farthest a candidate is from the center, as last looked for                       [m]
   [[nodiscard]] double farthest() const noexcept { return farthest_; }
-  [[nodiscard]] const GeneralContact::KeptImpulses& impulses() const noexcept {
-    return contact_.impulses();
+  /// See GeneralContact::coupled().
+  [[nodiscard]] const contact::CoupledContacts& coupled() const noexcept {
+    return contact_.coupled();
   }
-  void set_impulses(GeneralContact::KeptImpulses impulses) noexcept {
-    contact_.set_impulses(std::move(impulses));
-  }
-  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() {
-    return contact_.take_difficult();
-  }
+  [[nodiscard]] contact::CoupledContacts& coupled() noexcept { return contact_.coupled(); }
 
  private:
   struct Held {

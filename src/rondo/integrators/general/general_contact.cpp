@@ -39,7 +39,11 @@ Vec2 velocity_after(const ContactStep& step, Vec2 arm, Vec2 v) noexcept {
 }  // namespace
 
 GeneralContact::GeneralContact(const Model& model)
-    : model_(model), finder_(model), candidate_(model.n_nodes(), -1), response_(model.n_nodes()) {
+    : model_(model),
+      finder_(model),
+      candidate_(model.n_nodes(), -1),
+      response_(model.n_nodes()),
+      coupled_({.most_iterations = model.coupled.most_iterations}, model.coupled.dump_above) {
   const std::vector<int>* nodes = model.contact    ? &model.contact->nodes
                                   : model.surfaces ? &model.surfaces->nodes
                                                    : nullptr;
@@ -80,7 +84,7 @@ ContactReport GeneralContact::solve_found(const BodyFrames& frames, Vec2 center,
   state.active.clear();
   center_ = center;
   if (rows_.empty()) {
-    kept_.clear();
+    coupled_.kept.clear();
     return report;
   }
   set_velocities(frames, state);
@@ -150,9 +154,9 @@ void GeneralContact::set_velocities(const BodyFrames& frames, const State& state
 /// The corner, or the node, was behind some segment in the step before.
 bool GeneralContact::was_found(const ContactRow& row) const noexcept {
   const auto point = [](std::uint64_t key) { return key >> key_bits_of_edge; };
-  const auto found = std::ranges::lower_bound(kept_, point(row.key), {},
+  const auto found = std::ranges::lower_bound(coupled_.kept, point(row.key), {},
                                               [&](const auto& kept) { return point(kept.first); });
-  return found != kept_.end() && point(found->first) == point(row.key);
+  return found != coupled_.kept.end() && point(found->first) == point(row.key);
 }
 
 /// It may have come in beside the segment, at an end without a neighbour.
@@ -229,39 +233,29 @@ void GeneralContact::solve_on_ground(const BodyFrames& frames, Rows rows, State&
 
 void GeneralContact::make_problem(Rows rows) {
   cluster_rows_.clear();
-  problem_.free.clear();
-  problem_.bounce.clear();
-  problem_.friction.clear();
-  impulse_.clear();
+  coupled_.clear();
   for (const int j : rows) {
     ContactRow& row = rows_[at(j)];
     row.friction =
         row.law->friction.coefficient({row.point, std::abs(row.before.y), pressure_before(row)});
     cluster_rows_.push_back(row.rows);
-    problem_.free.push_back(row.free + Vec2{row.turning, 0.0});
-    problem_.bounce.push_back(row.bounce);
-    problem_.friction.push_back(row.friction);
-    impulse_.push_back(warm_start(row.key));
+    coupled_.add(row.free + Vec2{row.turning, 0.0}, row.bounce, row.friction,
+                 coupled_.kept_of(row.key));
   }
-  start_ = impulse_;
-  status_.assign(rows.size(), Status::open);
-  delassus_.build(cluster_rows_, response_, problem_);
+  delassus_.build(cluster_rows_, response_, coupled_.problem);
 }
 
 void GeneralContact::solve_together(const BodyFrames& frames, Rows rows, State& state,
                                     ContactReport& report) {
   make_problem(rows);
-  const contact::CoupledLimits limits{.most_iterations = model_.coupled.most_iterations};
-  const contact::CoupledResult result =
-      contact::solve_coupled(problem_, limits, impulse_, status_, workspace_);
-  difficult_.look_at(problem_, impulse_, start_, result, model_.coupled.dump_above);
+  const contact::CoupledResult& result = coupled_.solve();
   for (std::size_t j = 0; j < rows.size(); ++j) {
-    rows_[at(rows[j])].impulse = impulse_[j];
-    rows_[at(rows[j])].status = status_[j];
+    rows_[at(rows[j])].impulse = coupled_.impulse[j];
+    rows_[at(rows[j])].status = coupled_.status[j];
   }
   add_impulses(frames, rows, result.converged, state);
   for (std::size_t j = 0; j < rows.size(); ++j)
-    finish_row(frames, rows_[at(rows[j])], problem_.mass[j], state, report);
+    finish_row(frames, rows_[at(rows[j])], coupled_.problem.mass[j], state, report);
   if (rows.size() > 1) ++report.clusters;
   report.clusters_not_converged += result.converged ? 0 : 1;
   report.cluster_largest = std::max(report.cluster_largest, static_cast<int>(rows.size()));
@@ -364,20 +358,13 @@ void GeneralContact::add_active(const ContactRow& row, State& state) const {
 /// r_n/(Δt ℓ) of the step before, for a law that may need it                               [Pa]
 double GeneralContact::pressure_before(const ContactRow& row) const {
   if (row.law->friction.is_constant() || row.tributary == 0.0) return 0.0;
-  return warm_start(row.key).x / (model_.dt * row.tributary);
-}
-
-Vec2 GeneralContact::warm_start(std::uint64_t key) const {
-  const auto found = std::lower_bound(kept_.begin(), kept_.end(), key,
-                                      [](const auto& kept, auto k) { return kept.first < k; });
-  return found != kept_.end() && found->first == key ? found->second : Vec2{};
+  return coupled_.kept_of(row.key).x / (model_.dt * row.tributary);
 }
 
 void GeneralContact::keep_impulses() {
-  kept_.clear();
-  for (const ContactRow& row : rows_) kept_.emplace_back(row.key, row.impulse);
-  std::sort(kept_.begin(), kept_.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  coupled_.kept.clear();
+  for (const ContactRow& row : rows_) coupled_.kept.emplace_back(row.key, row.impulse);
+  coupled_.sort_kept();
 }
 
 }  // namespace rondo::dynamics

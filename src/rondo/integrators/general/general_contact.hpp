@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "rondo/contact/coupled/clusters.hpp"
-#include "rondo/contact/coupled/coupled.hpp"
-#include "rondo/contact/coupled/problem_file.hpp"
+#include "rondo/contact/coupled/coupled_contacts.hpp"
+#include "rondo/contact/coupled/rows.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/general/body_frames.hpp"
 #include "rondo/integrators/general/contact_finder.hpp"
@@ -40,14 +40,9 @@ class GeneralContact {
   [[nodiscard]] const ContactFinder& finder() const noexcept { return finder_; }
   [[nodiscard]] ContactFinder& finder() noexcept { return finder_; }
 
-  /// Problems that took more than model.coupled.dump_above iterations since the last call, the
-  /// first few of them.
-  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() { return difficult_.take(); }
-
-  /// Impulses of the step before, by contact, ascending: the coupled contacts start from them.
-  using KeptImpulses = std::vector<std::pair<std::uint64_t, Vec2>>;
-  [[nodiscard]] const KeptImpulses& impulses() const noexcept { return kept_; }
-  void set_impulses(KeptImpulses impulses) noexcept { kept_ = std::move(impulses); }
+  /// The impulses from which the next step starts, and the difficult problems.
+  [[nodiscard]] const contact::CoupledContacts& coupled() const noexcept { return coupled_; }
+  [[nodiscard]] contact::CoupledContacts& coupled() noexcept { return coupled_; }
 
  private:
   using Rows = std::span<const int>;  ///< rows of one cluster
@@ -69,7 +64,6 @@ class GeneralContact {
   void report_on_ground(const ContactRow& row, ContactReport& report) const;
   void add_active(const ContactRow& row, State& state) const;
   [[nodiscard]] double pressure_before(const ContactRow& row) const;
-  [[nodiscard]] Vec2 warm_start(std::uint64_t key) const;
   void keep_impulses();
   void sort_by_candidate(std::vector<ActiveContact>& active);
 
@@ -83,12 +77,7 @@ class GeneralContact {
   contact::ClusterFinder cluster_finder_;
   std::vector<contact::ContactRows> cluster_rows_;
   contact::DelassusBuilder delassus_;
-  contact::CoupledProblem problem_;
-  contact::CoupledWorkspace workspace_;
-  std::vector<Vec2> impulse_, start_;  ///< impulses of a cluster: found, and warm start
-  std::vector<contact::Status> status_;
-  KeptImpulses kept_;
-  contact::DifficultProblems difficult_;
+  contact::CoupledContacts coupled_;  ///< problem of one cluster; `kept` of all contacts
   Vec2 center_;
   std::vector<std::pair<std::size_t, std::size_t>> order_;  ///< candidate, place in `active`
   std::vector<ActiveContact> sorted_;

@@ -217,9 +217,9 @@ void GeneralIntegrator::fields(State& state) const noexcept {
 
 std::vector<contact::ProblemFile> GeneralIntegrator::take_difficult() {
   std::vector<contact::ProblemFile> problems =
-      ring_ ? ring_->take_difficult() : contact_.take_difficult();
+      (ring_ ? ring_->coupled() : contact_.coupled()).difficult.take();
   if (implicit_ && implicit_->contact())
-    for (contact::ProblemFile& problem : implicit_->contact()->take_difficult())
+    for (contact::ProblemFile& problem : implicit_->contact()->coupled().difficult.take())
       problems.push_back(std::move(problem));
   return problems;
 }
@@ -230,10 +230,11 @@ SavedState GeneralIntegrator::save() const {
   saved.u = state_.u;
   saved.v = state_.v_next;
   internal_->save(saved);
-  saved.impulses = contact_.impulses();
+  saved.impulses = contact_.coupled().kept;
   if (ring_) saved.ring = ring_->save();
   if (implicit_ && implicit_->contact())
-    for (const auto& impulse : implicit_->contact()->impulses()) saved.impulses.push_back(impulse);
+    for (const auto& impulse : implicit_->contact()->coupled().kept)
+      saved.impulses.push_back(impulse);
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -246,9 +247,9 @@ void GeneralIntegrator::restore(const SavedState& saved) {
   state_.v_next = saved.v;
   internal_->restore(saved);
   take_poses();
-  contact_.set_impulses(saved.impulses);
+  contact_.coupled().kept = saved.impulses;
   if (ring_) ring_->restore(saved.ring);
-  if (implicit_ && implicit_->contact()) implicit_->contact()->set_impulses(saved.impulses);
+  if (implicit_ && implicit_->contact()) implicit_->contact()->coupled().kept = saved.impulses;
   ledger_.restore(saved.ledger);
 }
 

@@ -189,7 +189,7 @@ SavedState WheelIntegrator::save() const {
   saved.v = absolute_;
   saved.rim = rim_.save();
   internal_->save(saved);
-  saved.impulses = contact_.impulses();
+  saved.impulses = contact_.coupled().kept;
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -204,7 +204,7 @@ void WheelIntegrator::restore(const SavedState& saved) {
   absolute_ = to_vector(saved.v.plane());
   rim_.restore(saved.step, saved.rim);
   internal_->restore(saved);
-  contact_.set_impulses(saved.impulses);
+  contact_.coupled().kept = saved.impulses;
   ledger_.restore(saved.ledger);
 }
 

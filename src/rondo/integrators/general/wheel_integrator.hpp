@@ -24,7 +24,7 @@ class WheelIntegrator final : public Integrator, public Resumable {
   [[nodiscard]] SavedState save() const override;
   void restore(const SavedState& saved) override;
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() override {
-    return contact_.take_difficult();
+    return contact_.coupled().difficult.take();
   }
 
  private:

@@ -60,7 +60,7 @@ FinePart::FinePart(const Model& whole, const PartFields& start)
   });
 }
 
-void FinePart::set(PartFields fields, GeneralContact::KeptImpulses impulses) {
+void FinePart::set(PartFields fields, contact::KeptImpulses impulses) {
   RONDO_DEMAND(fields.u.size() == model_.n_nodes() && fields.v.size() == model_.n_nodes(),
                fields.u.size(), fields.v.size(), model_.n_nodes());
   fields_ = std::move(fields);
@@ -71,7 +71,7 @@ void FinePart::attempt(long long n, std::span<const Vec2> multiplier) {
   RONDO_ASSERT(n >= 1, n);
   state_.u = fields_.u;
   state_.v = fields_.v;
-  contact_.set_impulses(kept_);
+  contact_.coupled().kept = kept_;
   std::swap(contacts_, contacts_before_);
   std::fill(travel_.begin(), travel_.end(), Vec2{});
   works_ = {};
@@ -95,7 +95,7 @@ void FinePart::attempt(long long n, std::span<const Vec2> multiplier) {
 void FinePart::accept() {
   std::swap(fields_.u, state_.u);
   std::swap(fields_.v, state_.v);
-  kept_ = contact_.impulses();
+  kept_ = contact_.coupled().kept;
 }
 
 /// u += δ/2 v

@@ -50,10 +50,10 @@ class FinePart {
   // State that was accepted last -----------------------------------------------------------------
   [[nodiscard]] const PartFields& fields() const noexcept { return fields_; }
   void add_energy(double& kinetic, double& strain);
-  [[nodiscard]] const GeneralContact::KeptImpulses& impulses() const noexcept { return kept_; }
-  void set(PartFields fields, GeneralContact::KeptImpulses impulses);
+  [[nodiscard]] const contact::KeptImpulses& impulses() const noexcept { return kept_; }
+  void set(PartFields fields, contact::KeptImpulses impulses);
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() {
-    return contact_.take_difficult();
+    return contact_.coupled().difficult.take();
   }
 
   /// By how much the interface moves in a coarse step under a multiplier, from rest, undeformed,
@@ -72,7 +72,7 @@ class FinePart {
   const std::vector<int> interface_;
   const int ratio_;
   PartFields fields_;
-  GeneralContact::KeptImpulses kept_;
+  contact::KeptImpulses kept_;
   State state_;  ///< state of the attempt: u; v⁻, and v⁺ in v_next
   GeneralContact contact_;
   std::vector<FineContact> contacts_, contacts_before_;  ///< (m)

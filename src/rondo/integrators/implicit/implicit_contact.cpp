@@ -21,7 +21,11 @@ double largest_of(const Block& a) noexcept {
 }  // namespace
 
 ImplicitContact::ImplicitContact(const Model& model, const NodeSet& nodes)
-    : model_(model), nodes_(nodes), is_held_(model.contact->nodes.size()), unit_(nodes.size()) {
+    : model_(model),
+      nodes_(nodes),
+      is_held_(model.contact->nodes.size()),
+      unit_(nodes.size()),
+      coupled_({.most_iterations = model.coupled.most_iterations}, model.coupled.dump_above) {
   RONDO_DEMAND(
       nodes.turn.size() == nodes.size() &&
           (nodes.sectors == 0 || (nodes.row_size > 0 && nodes.size() % nodes.row_size == 0)),
@@ -99,7 +103,7 @@ bool ImplicitContact::find(const ContactStep& step, const PlaneField& u, const P
     }
   }
   if (rows_.empty()) {
-    kept_.clear();
+    coupled_.kept.clear();
     return false;
   }
   build_problem(step);
@@ -108,28 +112,15 @@ bool ImplicitContact::find(const ContactStep& step, const PlaneField& u, const P
 
 /// W_jl = n̄_j R(θ_{n+2}) A⁻¹_jl R(θ_{n+1})ᵀ n̄_lᵀ
 void ImplicitContact::build_problem(const ContactStep& step) {
-  const std::size_t n = rows_.size();
-  problem_.free.resize(n);
-  problem_.row_start.assign(1, 0);
-  for (auto* numbers : {&problem_.bounce, &problem_.friction, &problem_.mass}) numbers->clear();
-  problem_.column.clear();
-  problem_.blocks.clear();
-  for (std::size_t j = 0; j < n; ++j) {
-    problem_.bounce.push_back(active_[j].bounce);
-    problem_.friction.push_back(active_[j].friction);
+  coupled_.clear();
+  for (std::size_t j = 0; j < rows_.size(); ++j)
+    coupled_.add({}, active_[j].bounce, active_[j].friction, coupled_.kept_of(rows_[j].key));
+  const auto block = [&](std::size_t j, std::size_t l) {
     const Complex to = conj(frame_of(active_[j].normal)) * step.rotation_next;
-    for (std::size_t l = 0; l < n; ++l) {
-      const Complex from = conj(frame_of(active_[l].normal)) * step.rotation;
-      problem_.column.push_back(static_cast<int>(l));
-      problem_.blocks.push_back(contact::in_frames(to, response(rows_[j].of, rows_[l].of), from));
-      if (l == j) problem_.mass.push_back(1.0 / largest_of(problem_.blocks.back()));
-    }
-    problem_.row_start.push_back(static_cast<int>(problem_.column.size()));
-  }
-  impulse_.clear();
-  for (const Row& row : rows_) impulse_.push_back(warm_start(row.key));
-  start_ = impulse_;
-  status_.assign(n, contact::Status::open);
+    const Complex from = conj(frame_of(active_[l].normal)) * step.rotation;
+    return contact::in_frames(to, response(rows_[j].of, rows_[l].of), from);
+  };
+  coupled_.couple_all(block, largest_of);
 }
 
 double ImplicitContact::friction_of(const ContactStep& step, const ActiveContact& contact,
@@ -138,62 +129,55 @@ double ImplicitContact::friction_of(const ContactStep& step, const ActiveContact
   if (friction.is_constant()) return friction.constant();
   const double length = model_.contact->tributary[contact.candidate];
   return friction.coefficient({step.center + step.rotation * row.arm, std::abs(contact.before.y),
-                               warm_start(row.key).x / (model_.dt * length)});
-}
-
-Vec2 ImplicitContact::warm_start(std::uint64_t key) const noexcept {
-  const auto found = std::lower_bound(kept_.begin(), kept_.end(), key,
-                                      [](const auto& kept, auto k) { return kept.first < k; });
-  return found != kept_.end() && found->first == key ? found->second : Vec2{};
+                               coupled_.kept_of(row.key).x / (model_.dt * length)});
 }
 
 void ImplicitContact::solve(const ContactStep& step, const PlaneField& free, PlaneField& impulse) {
-  RONDO_ASSERT(problem_.free.size() == rows_.size() && impulse_.size() == rows_.size() &&
-                   free.size() == nodes_.size(),
-               problem_.free.size(), impulse_.size(), rows_.size());  // by find()
+  RONDO_ASSERT(coupled_.problem.size() == rows_.size() && free.size() == nodes_.size(),
+               coupled_.problem.size(), rows_.size(), free.size());  // by find()
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     const std::size_t place = candidates_[rows_[j].of].place;
     const Vec2 velocity = nodes_.turn[place] * free.at(place);
-    problem_.free[j] =
+    coupled_.problem.free[j] =
         to_frame(active_[j].normal, drive_of(step, rows_[j].arm) + step.rotation_next * velocity);
-    active_[j].free = problem_.free[j];
+    active_[j].free = coupled_.problem.free[j];
   }
-  const contact::CoupledLimits limits{.most_iterations = model_.coupled.most_iterations};
-  result_ = contact::solve_coupled(problem_, limits, impulse_, status_, workspace_);
-  difficult_.look_at(problem_, impulse_, start_, result_, model_.coupled.dump_above);
+  coupled_.solve();
   for (std::size_t j = 0; j < rows_.size(); ++j) {
     const std::size_t place = candidates_[rows_[j].of].place;
     const Vec2 on_node = conj(nodes_.turn[place]) *
-                         (conj(step.rotation) * from_frame(active_[j].normal, impulse_[j]));
+                         (conj(step.rotation) * from_frame(active_[j].normal, coupled_.impulse[j]));
     impulse.put(place, impulse.at(place) + on_node);
   }
 }
 
 void ImplicitContact::report(const ContactStep& step, const PlaneField& before,
                              const PlaneField& after, ContactReport& report) {
-  kept_.clear();
+  coupled_.kept.clear();
   const std::span<ActiveContact> all(active_);
   for (std::size_t j = 0; j < rows_.size();) {
     std::size_t end = j;
     for (; end < rows_.size() && rows_[end].of == rows_[j].of; ++end) {
-      all[end].impulse = impulse_[end];
-      all[end].status = status_[end];
-      kept_.emplace_back(rows_[end].key, impulse_[end]);
+      all[end].impulse = coupled_.impulse[end];
+      all[end].status = coupled_.status[end];
+      coupled_.kept.emplace_back(rows_[end].key, coupled_.impulse[end]);
     }
     const std::size_t place = candidates_[rows_[j].of].place, k = all[j].candidate;
     const Complex turn = nodes_.turn[place];
-    const ContactNode node{
-        k, problem_.mass[j], model_.contact->tributary[k], rows_[j].arm, turn * before.at(place),
-        {}};
+    const ContactNode node{k,
+                           coupled_.problem.mass[j],
+                           model_.contact->tributary[k],
+                           rows_[j].arm,
+                           turn * before.at(place),
+                           {}};
     report_contacts(step, node, turn * after.at(place), all.subspan(j, end - j), report);
     j = end;
   }
-  std::sort(kept_.begin(), kept_.end(),
-            [](const auto& a, const auto& b) { return a.first < b.first; });
+  coupled_.sort_kept();
   if (rows_.size() > 1) ++report.clusters;
-  report.clusters_not_converged += result_.converged ? 0 : 1;
+  report.clusters_not_converged += coupled_.result.converged ? 0 : 1;
   report.cluster_largest = std::max(report.cluster_largest, static_cast<int>(rows_.size()));
-  report.cluster_iterations = std::max(report.cluster_iterations, result_.iterations);
+  report.cluster_iterations = std::max(report.cluster_iterations, coupled_.result.iterations);
 }
 
 }  // namespace rondo::dynamics

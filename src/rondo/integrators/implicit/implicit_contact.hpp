@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "rondo/contact/coupled/problem_file.hpp"
+#include "rondo/contact/coupled/coupled_contacts.hpp"
 #include "rondo/integrators/implicit/implicit_operator.hpp"
 #include "rondo/model/contact_node.hpp"
 
@@ -33,14 +33,10 @@ class ImplicitContact {
   /// Contacts of the last step, in the order of the candidates.
   [[nodiscard]] const std::vector<ActiveContact>& active() const noexcept { return active_; }
 
-  /// See GeneralContact::take_difficult().
-  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() { return difficult_.take(); }
-
-  /// From these the next step starts: by contact, ascending; keys with bit 62 set.
-  using KeptImpulses = std::vector<std::pair<std::uint64_t, Vec2>>;
-  static constexpr std::uint64_t key_bit = std::uint64_t{1} << 62U;
-  [[nodiscard]] const KeptImpulses& impulses() const noexcept { return kept_; }
-  void set_impulses(KeptImpulses impulses) noexcept { kept_ = std::move(impulses); }
+  /// The impulses from which the next step starts, and the difficult problems.
+  [[nodiscard]] const contact::CoupledContacts& coupled() const noexcept { return coupled_; }
+  [[nodiscard]] contact::CoupledContacts& coupled() noexcept { return coupled_; }
+  static constexpr std::uint64_t key_bit = std::uint64_t{1} << 62U;  ///< set in all keys
 
  private:
   struct Candidate {
@@ -58,7 +54,6 @@ class ImplicitContact {
   void build_problem(const ContactStep& step);
   [[nodiscard]] double friction_of(const ContactStep& step, const ActiveContact& contact,
                                    const Row& row) const noexcept;
-  [[nodiscard]] Vec2 warm_start(std::uint64_t key) const noexcept;
 
   const Model& model_;
   const NodeSet& nodes_;
@@ -70,13 +65,7 @@ class ImplicitContact {
   PlaneField unit_;
   std::vector<Row> rows_;
   std::vector<ActiveContact> active_;
-  contact::CoupledProblem problem_;
-  contact::CoupledWorkspace workspace_;
-  contact::CoupledResult result_;
-  std::vector<Vec2> impulse_, start_;  ///< found, and warm start
-  contact::DifficultProblems difficult_;
-  std::vector<contact::Status> status_;
-  KeptImpulses kept_;
+  contact::CoupledContacts coupled_;
 };
 
 }  // namespace rondo::dynamics

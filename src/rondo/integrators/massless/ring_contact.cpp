@@ -12,7 +12,6 @@ namespace rondo::dynamics {
 namespace {
 
 using contact::Block;
-using contact::Status;
 
 /// Gaps above this are closed to round-off [m].
 constexpr double closed = -1e-14;
@@ -28,7 +27,8 @@ bool near_second_facet(const contact::Ground& ground, Vec2 place, double way) no
 MasslessContact::MasslessContact(const Model& model)
     : model_(model),
       matrix_(model.stiffness, model.contact->nodes),
-      lag_(model.stiffness_damping / model.dt) {
+      lag_(model.stiffness_damping / model.dt),
+      coupled_({.most_iterations = model.coupled.most_iterations}, model.coupled.dump_above) {
   RONDO_DEMAND(has_massless_contact(model) && !model.stiffness.row_start.empty());
   RONDO_DEMAND(matrix_.is_positive_definite());
   RONDO_DEMAND(model.dt > 0.0 && !has_friction_law(model) &&
@@ -121,58 +121,36 @@ void MasslessContact::predict() {
   }
 }
 
-void MasslessContact::find_delassus() {
-  const std::vector<RingContact>& c = next_.contacts;
-  const double scale = 1.0 / (step_->dt * step_->dt * (1.0 + lag_));
+void MasslessContact::make_problem() {
+  std::vector<RingContact>& contacts = next_.contacts;
   matrix_.release();
   columns_.clear();
-  for (const RingContact& contact : c) columns_.push_back(matrix_.inverse_column(contact.node));
-  problem_.row_start.assign(1, 0);
-  problem_.column.clear();
-  problem_.blocks.clear();
-  problem_.mass.clear();
-  for (std::size_t j = 0; j < c.size(); ++j) {
-    for (std::size_t l = 0; l < c.size(); ++l) {
-      const auto to_frame_of = [&](const RingContact& contact) {
-        return conj(frame_of(contact.normal)) * step_->rotation_next;
-      };
-      Block w =
-          contact::in_frames(to_frame_of(c[j]), columns_[l][at(c[j].node)], to_frame_of(c[l]));
-      for (double& entry : w) entry *= scale;
-      problem_.column.push_back(static_cast<int>(l));
-      problem_.blocks.push_back(w);
-      if (j == l) problem_.mass.push_back(1.0 / std::max(w[0], w[3]));
-    }
-    problem_.row_start.push_back(static_cast<int>(problem_.column.size()));
-  }
-}
-
-void MasslessContact::make_problem() {
-  find_delassus();
-  problem_.free.clear();
-  impulse_.clear();
-  for (RingContact& c : next_.contacts) {
+  coupled_.clear();
+  for (RingContact& c : contacts) {
+    columns_.push_back(matrix_.inverse_column(c.node));
     c.free = law_velocity(c, free_);
-    problem_.free.push_back(c.free);
-    impulse_.push_back(c.impulse);
+    coupled_.add(c.free, 0.0, model_.contact->law.friction.constant(), c.impulse);
   }
-  problem_.bounce.assign(impulse_.size(), 0.0);
-  problem_.friction.assign(impulse_.size(), model_.contact->law.friction.constant());
-  status_.assign(impulse_.size(), Status::open);
-  start_ = impulse_;
+  const double scale = 1.0 / (step_->dt * step_->dt * (1.0 + lag_));
+  const auto to_frame_of = [&](const RingContact& c) {
+    return conj(frame_of(c.normal)) * step_->rotation_next;
+  };
+  coupled_.couple_all([&](std::size_t j, std::size_t l) {
+    contact::Block w = contact::in_frames(
+        to_frame_of(contacts[j]), columns_[l][at(contacts[j].node)], to_frame_of(contacts[l]));
+    for (double& entry : w) entry *= scale;
+    return w;
+  });
 }
 
 void MasslessContact::solve_law() {
   make_problem();
-  const contact::CoupledLimits limits{.most_iterations = model_.coupled.most_iterations};
-  const contact::CoupledResult result =
-      contact::solve_coupled(problem_, limits, impulse_, status_, workspace_);
-  difficult_.look_at(problem_, impulse_, start_, result, model_.coupled.dump_above);
+  const contact::CoupledResult& result = coupled_.solve();
   next_.iterations += result.iterations;
   next_.converged = next_.converged && result.converged;
   for (std::size_t j = 0; j < next_.contacts.size(); ++j) {
-    next_.contacts[j].impulse = impulse_[j];
-    next_.contacts[j].status = status_[j];
+    next_.contacts[j].impulse = coupled_.impulse[j];
+    next_.contacts[j].status = coupled_.status[j];
   }
 }
 
@@ -200,8 +178,8 @@ void MasslessContact::finish() {
   for (std::size_t j = 0; j < next_.contacts.size(); ++j) {
     RingContact& c = next_.contacts[j];
     const Vec2 w = law_velocity(c, change_);
-    c.residual = contact::law_residual(c.impulse, w, 0.0, problem_.friction[j], problem_.mass[j]) /
-                 problem_.mass[j];
+    const double friction = coupled_.problem.friction[j], mass = coupled_.problem.mass[j];
+    c.residual = contact::law_residual(c.impulse, w, 0.0, friction, mass) / mass;
     c.gap = w.x * step_->dt;
     if (c.impulse.x > 0.0 && !next_.two_facets)
       next_.two_facets =

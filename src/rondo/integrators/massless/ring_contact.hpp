@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "rondo/contact/coupled/problem_file.hpp"
+#include "rondo/contact/coupled/coupled_contacts.hpp"
 #include "rondo/integrators/massless/ring_matrix.hpp"
 #include "rondo/model/contact_node.hpp"
 #include "rondo/model/model.hpp"
@@ -85,15 +85,14 @@ class MasslessContact {
   /// Whether `numbers` can be those of save().
   static bool is_saved(std::span<const double> numbers, std::size_t n_candidates) noexcept;
 
-  /// As GeneralContact::take_difficult().
-  [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() { return difficult_.take(); }
+  /// For its difficult problems.
+  [[nodiscard]] contact::CoupledContacts& coupled() noexcept { return coupled_; }
 
  private:
   void load_ring() noexcept;
   void predict();
   void join(int node, const contact::Touch& touch);
   void make_problem();
-  void find_delassus();
   void solve_law();
   void move_ring(std::span<const RingContact> by, std::span<Vec2> change) noexcept;
   bool extend();
@@ -118,12 +117,8 @@ class MasslessContact {
   std::vector<Vec2> velocity_;   ///< (nc)                                        [m/s]
   std::vector<char> joined_;     ///< (nc) node is among the contacts
   RingContacts now_, next_;
-  contact::CoupledProblem problem_;
-  contact::CoupledWorkspace workspace_;
+  contact::CoupledContacts coupled_;
   std::vector<std::span<const contact::Block>> columns_;  ///< columns of K_cc⁻¹, for the contacts
-  std::vector<Vec2> impulse_, start_;
-  std::vector<contact::Status> status_;
-  contact::DifficultProblems difficult_;
 };
 
 }  // namespace rondo::dynamics

@@ -80,16 +80,16 @@ class ImplicitTail final : public StepTail {
     active.insert(active.end(), own.begin(), own.end());
   }
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() override {
-    return elements_.contact() ? elements_.contact()->take_difficult()
+    return elements_.contact() ? elements_.contact()->coupled().difficult.take()
                                : std::vector<contact::ProblemFile>{};
   }
   void save(SavedState& saved) const override {
     if (!elements_.contact()) return;
-    const auto& own = elements_.contact()->impulses();
+    const auto& own = elements_.contact()->coupled().kept;
     saved.impulses.insert(saved.impulses.end(), own.begin(), own.end());
   }
   void restore(const SavedState& saved) override {
-    if (elements_.contact()) elements_.contact()->set_impulses(saved.impulses);
+    if (elements_.contact()) elements_.contact()->coupled().kept = saved.impulses;
   }
 
  private:

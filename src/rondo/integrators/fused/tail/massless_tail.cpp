@@ -84,7 +84,7 @@ class MasslessTail final : public StepTail {
     active.insert(active.end(), active_.begin(), active_.end());
   }
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() override {
-    return contact_.take_difficult();
+    return contact_.coupled().difficult.take();
   }
   void save(SavedState& saved) const override { saved.ring = contact_.save(); }
   void restore(const SavedState& saved) override {
