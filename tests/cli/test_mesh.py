@@ -304,6 +304,19 @@ class Meshes(ProgramTest):
             self.assertEqual(done.returncode, 2, settings)
             self.assertIn("nodes that are held would be up to", done.stderr)
 
+    def test_a_mesh_without_a_free_node(self):
+        nodes = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0"
+        lines = "\n".join(f"{k} 1 2 1 1 {k} {k % 4 + 1}" for k in (1, 2, 3, 4))
+        (self.folder / "one.msh").write_text(
+            f'$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 "edge"\n2 2 "body"\n$EndPhysicalNames\n'
+            f"$Nodes\n4\n{nodes}\n$EndNodes\n$Elements\n5\n{lines}\n5 3 2 2 1 1 2 3 4\n$EndElements\n")
+        text = BLOCK[:BLOCK.index("[ground]")] + "[time]\nend = 0.02\n"
+        text = text.replace("block.msh", "one.msh").replace('"top"', '"edge"').replace('contact = "foot"\n', "")
+        for spin in 0, 10:  # with a spin the check of softening ended the program
+            done = run("check", self.case(text), "--set", f"motion.angular_velocity={spin}")
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn('mesh.clamped = "edge": holds all nodes of the mesh', done.stderr)
+
     def test_what_the_mesh_says_is_said_with_its_file(self):
         done = run("check", self.case(BLOCK), "--set", "mesh.contact=sides")
         self.assertIn(f"{self.folder / 'block.msh'}: 2 nodes of the contact curve \"sides\" are clamped",

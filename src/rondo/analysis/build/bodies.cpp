@@ -216,6 +216,9 @@ mesh::Mesh build_mesh(const Case& c, std::vector<std::string>* warnings) {
   refuse_sizes_out_of_range(c, size);
   if (!c.mesh) set_disk_regions(c, mesh);
   if (!c.mesh && c.free_rim) mesh.clamped.clear();
+  if (c.mesh && mesh.clamped.size() == mesh.n_nodes())
+    throw case_error(c, "mesh.clamped", "holds all nodes of the mesh: nothing can move",
+                     "a curve that leaves nodes free, or a finer mesh");
   if (warnings) warn_of_locking_triangles(c, mesh, *warnings);
   return mesh;
 }

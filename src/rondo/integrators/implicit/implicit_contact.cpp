@@ -97,7 +97,7 @@ bool ImplicitContact::find(const ContactStep& step, const PlaneField& u, const P
       a.gap = touch.gap;
       a.before = to_frame(a.normal, velocity_before(step, arm, turn * before.at(place)));
       a.bounce = contact::restitution_shift(*step.law, a.before.x, a.before.x);
-      rows_.push_back({c, key_bit | (2 * k + static_cast<std::uint64_t>(t)), arm});
+      rows_.push_back({c, key_bits | (2 * k + static_cast<std::uint64_t>(t)), arm});
       a.friction = friction_of(step, a, rows_.back());
       active_.push_back(a);
     }

@@ -36,7 +36,8 @@ class ImplicitContact {
   /// The impulses from which the next step starts, and the difficult problems.
   [[nodiscard]] const contact::CoupledContacts& coupled() const noexcept { return coupled_; }
   [[nodiscard]] contact::CoupledContacts& coupled() noexcept { return coupled_; }
-  static constexpr std::uint64_t key_bit = std::uint64_t{1} << 62U;  ///< set in all keys
+  /// Set in all keys: the fourth kind, beside the three of ContactKind.
+  static constexpr std::uint64_t key_bits = std::uint64_t{3} << 62U;
 
  private:
   struct Candidate {
