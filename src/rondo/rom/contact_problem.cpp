@@ -155,6 +155,20 @@ DelassusPair ContactSolver::pair_of(std::size_t at, std::size_t from) const {
   return w;
 }
 
+/// A law is asked with the place and the slip before the step, and the impulse of the step before.
+double ContactSolver::friction_of(const FreeStep& step, const contact::Friction& friction,
+                                  const PointContact& c) const {
+  if (friction.is_constant()) return friction.constant();
+  const ContactTable& table = *before_.table;
+  const int k = point_of(c.material, before_.sectors);
+  const Complex turned = frame_rotation(step.before.angle);
+  const Vec2 arm = table.point(k) + table.at(k, *step.before.q);
+  const Vec2 tangent = frame_rotation(step.end.angle) * turn90(c.normal);
+  const Vec2 velocity = turned * material_velocity(step.before, before_, k);
+  return friction.coefficient({step.before.center + turned * arm, std::abs(dot(tangent, velocity)),
+                               c.impulse.x / (step.dt * table.share(k))});
+}
+
 void ContactSolver::make_problem(const FreeStep& step, const contact::Law& law,
                                  const StepMatrices& matrices) {
   coupled_.clear();
@@ -181,7 +195,7 @@ void ContactSolver::make_problem(const FreeStep& step, const contact::Law& law,
       const double w = dot(normal, before);
       bounce = contact::restitution_shift(law, w, w);
     }
-    coupled_.add(free, bounce, law.friction.constant(), c.impulse);
+    coupled_.add(free, bounce, friction_of(step, law.friction, c), c.impulse);
   }
   coupled_.couple_all([&](std::size_t i, std::size_t j) -> contact::Block {
     const DelassusPair w = pair_of(i, j);

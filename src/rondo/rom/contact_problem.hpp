@@ -98,6 +98,8 @@ class ContactSolver {
   /// @param next by the gaps one step later, which follow from the velocities
   void find(const FreeStep& step, bool next);
   void make_problem(const FreeStep& step, const contact::Law& law, const StepMatrices& matrices);
+  [[nodiscard]] double friction_of(const FreeStep& step, const contact::Friction& friction,
+                                   const PointContact& contact) const;
   void find_rim_responses(const FreeStep& step);
   [[nodiscard]] DelassusPair pair_of(std::size_t at, std::size_t from) const;
   [[nodiscard]] Vec2 opening(const BodyState& body, const Points& points, int point,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Friction that is no constant, in the steps that take it: the general one, also on a loaded rim
-/// and with implicit elements, and (bodies_test.cpp) that of bodies. The laws are of this test.
+/// with implicit elements and with contact nodes without mass, and (bodies_test.cpp) that of
+/// bodies; wheels in three dimensions: solid_step_test.cpp. The laws are of this test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <map>
 #include <utility>
 #include <vector>
@@ -204,6 +204,38 @@ TEST(FrictionLaw, IsAskedForEveryContactOfImplicitElements) {
   EXPECT_GT(expect_the_law(b.model, start(b.model, rest, rest), 800), 500);
 }
 
+/// The contacts at t_{n+1} were found in the step before, so that the law was asked for what was at
+/// t_n: |r_t| = μ r_n of that where a node slides.
+TEST(FrictionLaw, IsAskedForEveryContactOfNodesWithoutMass) {
+  test::RollingCase c = test::massless(rolling());
+  c.ground = contact::GroundShape{};
+  const test::Built b = test::build(c);
+  EXPECT_EQ(step_of(b.model), StepKind::general);
+  test::Reference run(b.model, start(b.model, test::some_displacement(b), test::some_velocity(b)));
+  std::map<std::size_t, SlidingState> before;
+  int slid = 0, pressed = 0;
+  for (int n = 0; n < 800; ++n) {
+    const ContactReport& report = run.step().contact;
+    EXPECT_EQ(report.clusters_not_converged, 0);
+    std::map<std::size_t, SlidingState> now;
+    for (const ActiveContact& a : run.state.active) {
+      const auto node = static_cast<std::size_t>(b.model.contact->nodes[a.candidate]);
+      now[a.candidate] = {position(b.model, run.state, node), std::abs(a.before.y),
+                          a.impulse.x / (b.model.dt * b.model.contact->tributary[a.candidate])};
+      const auto was = before.find(a.candidate);
+      if (was == before.end() || a.status != contact::Status::slip) continue;
+      EXPECT_NEAR(std::abs(a.impulse.y), some_law(was->second) * a.impulse.x, 1e-12 * a.impulse.x)
+          << n << " " << a.candidate;
+      ++slid;
+      pressed += was->second.pressure > 0.0 ? 1 : 0;
+    }
+    before = std::move(now);
+  }
+  EXPECT_GT(slid, 200);
+  EXPECT_GT(pressed, 100);
+  EXPECT_LT(run.last.balance.relative, 1e-12);
+}
+
 /// What a checkpoint keeps is enough to ask the law again.
 TEST(FrictionLaw, GoesOnToTheSameBits) {
   const test::Built b = test::build(rolling());
@@ -224,10 +256,12 @@ TEST(FrictionLaw, IsRefusedByStepsWithOneCoefficient) {
   const Features all = features_of(b.model);
   EXPECT_TRUE((all & has::friction_law) != 0);
   EXPECT_FALSE(can(StepKind::cyclic, all) || can(StepKind::sparse, all));
-  using All = std::initializer_list<Features>;
-  for (const Features with :
-       All{has::three_dimensions, has::massless, has::hati | has::other_scheme, has::reduced})
-    EXPECT_EQ(choose_step(has::friction_law | with), nullptr) << with;
+  const auto kind = [](Features with) { return choose_step(has::friction_law | with)->kind; };
+  EXPECT_EQ(kind(has::three_dimensions), StepKind::solid);
+  EXPECT_EQ(kind(has::three_dimensions | has::loaded_rim), StepKind::solid_wheel);
+  EXPECT_EQ(kind(has::massless), StepKind::general);
+  EXPECT_EQ(kind(has::reduced), StepKind::reduced);
+  EXPECT_EQ(choose_step(has::friction_law | has::hati | has::other_scheme), nullptr);
   const State at_start = start(b.model, test::some_displacement(b), test::some_velocity(b));
   EXPECT_DEATH(SparseIntegrator(b.model, at_start, kernel_table()), "has_friction_law");
 }

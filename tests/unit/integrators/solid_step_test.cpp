@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include "rondo/integrators/solid/solid_integrator.hpp"
@@ -159,6 +160,59 @@ TEST(SolidStep, GoesOnToTheSameBits) {
     EXPECT_EQ(a.rim, b.rim);
     EXPECT_EQ(a.ledger, b.ledger);
     EXPECT_EQ(whole.contact.impulse, part.contact.impulse);
+  }
+}
+
+double some_law(const contact::SlidingState& s) {
+  return 0.2 + 0.1 * std::sin(40.0 * s.place.x + 60.0 * s.place.z) - 0.01 * s.slip +
+         1e-8 * s.pressure;
+}
+
+/// What the law gives at the contacts of a step; `pressure` (by candidate) of the step before.
+void expect_the_law(const Model& m, const State& s, std::map<std::size_t, double>& pressure,
+                    int& slid) {
+  const GroundFrame ground(m.motion.camber);
+  std::map<std::size_t, double> now;
+  for (const ActiveContact& c : s.active) {
+    const auto k = static_cast<std::size_t>(m.contact->nodes[c.candidate]);
+    const Vec3 arm = Vec3(m.reference[k], m.solid->axial[k]) + s.u.space()[k];
+    const Vec3 place = s.frame.center + ground.from_wheel(s.frame.rotation * arm);
+    const double slip = std::hypot(c.before.y, c.before.z);
+    const double expected = some_law({place, slip, pressure[c.candidate]});
+    EXPECT_NEAR(c.friction, expected, 1e-12) << s.step << " " << c.candidate;
+    now[c.candidate] = c.impulse.x / (m.dt * m.contact->tributary[c.candidate]);
+    if (c.status != contact::Status::slip) continue;
+    EXPECT_NEAR(std::hypot(c.impulse.y, c.impulse.z), expected * c.impulse.x, 1e-11 * c.impulse.x);
+    slid += pressure[c.candidate] > 0.0 ? 1 : 0;
+  }
+  pressure = std::move(now);
+}
+
+/// At every contact: with place, slip and pressure as the step before has left them, also after a
+/// restart.
+TEST(SolidStep, AsksAFrictionLaw) {
+  const mesh::Mesh mesh = small_mesh();
+  for (const bool rim : {false, true}) {
+    Model m = test::cornering_model(mesh, {.slip_angle = 0.1, .camber = 0.05});
+    m.contact->law.friction = contact::Friction(some_law);
+    if (rim) m.rim = loaded_rim();
+    State state = at_rest(m);
+    auto integrator = integrator_of(m, state);
+    std::map<std::size_t, double> pressure;
+    std::array<StepReport, 1> report;
+    int slid = 0;
+    for (int n = 0; n < 600; ++n) {
+      if (n == 300) {
+        auto other = integrator_of(m, at_rest(m));
+        other->resumable()->restore(integrator->resumable()->save());
+        integrator = std::move(other);
+      }
+      integrator->advance(report, &state);
+      expect_the_law(m, state, pressure, slid);
+      EXPECT_LT(report[0].contact.residual, 1e-11);
+    }
+    EXPECT_GT(slid, 200);
+    EXPECT_LT(report[0].balance.relative, 1e-12);
   }
 }
 

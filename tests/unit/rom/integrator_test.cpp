@@ -341,6 +341,65 @@ TEST(ReducedIntegrator, CentralDifferencesAtNodesAreTheFullSchemeInContact) {
   EXPECT_LT(difference(state.v, found.v), 1e-9);
 }
 
+double some_law(const contact::SlidingState& s) {
+  return 0.2 + 0.1 * std::sin(40.0 * s.place.x) + 0.01 * s.slip + 2e-7 * s.pressure;
+}
+
+TEST(ReducedIntegrator, AsksAFrictionLawAsTheFullSchemeDoes) {
+  Reduced r = pressed({.contact = nodes, .frame = turning, .scheme = central});
+  rondo::test::add_ground(r.full, {}, {contact::Friction(some_law), 0.0});
+  dynamics::State state = rondo::test::start_at_rest(r.full.model);
+  ReducedIntegrator reduced = r.start(state);
+  dynamics::GeneralIntegrator steps(r.full.model, state);
+  std::vector<dynamics::StepReport> reports(1500), expected(1500);
+  reduced.advance(reports);
+  steps.advance(expected);
+  int contacts = 0, sliding = 0;
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const dynamics::ContactReport& full = expected[i].contact;
+    ASSERT_EQ(full.nodes, reports[i].contact.nodes) << i;
+    contacts += full.nodes;
+    sliding += full.nodes - full.sticking;
+    EXPECT_NEAR(norm(full.impulse - reports[i].contact.impulse), 0.0, 1e-8 * norm(full.impulse));
+  }
+  EXPECT_GT(contacts, 1000);
+  EXPECT_GT(sliding, 100);
+}
+
+/// With points that stand still: |r_t| = μ r_n where they slide, μ that of the place, the slip and
+/// the impulse before the step.
+TEST(ReducedIntegrator, AsksAFrictionLawAtPointsThatStandStill) {
+  Reduced r = pressed({});
+  rondo::test::add_ground(r.full, {}, {contact::Friction(some_law), 0.0});
+  ReducedIntegrator reduced = r.start(rondo::test::start_at_rest(r.full.model));
+  const rom::ContactRows& points = r.model.contact;
+  const dynamics::Motion& motion = r.full.model.motion;
+  const double dt = r.full.model.dt;
+  std::vector<double> impulse(points.points.size());
+  int sliding = 0;
+  for (int k = 0; k < 300; ++k) {
+    const double t = k * dt, spin = motion.turn(t, dt) / dt;
+    const VectorXd u = points.rows * reduced.displacement(), v = points.rows * reduced.velocity();
+    dynamics::StepReport report;
+    reduced.advance({&report, 1});
+    std::vector<double> now(impulse.size());
+    for (const PointContact& c : reduced.contacts()) {
+      const auto i = static_cast<std::size_t>(c.point);
+      const Vec2 arm = points.points[i] + Vec2{u[2 * c.point], u[2 * c.point + 1]};
+      const double slip =
+          motion.speed.at(t) + (spin * turn90(arm) + Vec2{v[2 * c.point], v[2 * c.point + 1]}).x;
+      const double mu = some_law(
+          {motion.center(t).plane() + arm, std::abs(slip), impulse[i] / (dt * points.share[i])});
+      now[i] = c.impulse.x;
+      if (c.status != contact::Status::slip) continue;
+      EXPECT_NEAR(std::abs(c.impulse.y), mu * c.impulse.x, 1e-10 * c.impulse.x) << k;
+      sliding += impulse[i] > 0.0 ? 1 : 0;
+    }
+    impulse = std::move(now);
+  }
+  EXPECT_GT(sliding, 30);
+}
+
 Vec2 impulse_of(const Form& form) {
   Reduced r = pressed(form);
   r.full.model.contact->law.restitution = 0.0;

@@ -27,7 +27,7 @@ const CoupledResult& CoupledContacts::solve() {
   return result;
 }
 
-Vec2 CoupledContacts::kept_of(std::uint64_t key) const noexcept {
+Vec2 kept_impulse(const KeptImpulses& kept, std::uint64_t key) noexcept {
   const auto found = std::ranges::lower_bound(kept, key, {}, [](const auto& k) { return k.first; });
   return found != kept.end() && found->first == key ? found->second : Vec2{};
 }

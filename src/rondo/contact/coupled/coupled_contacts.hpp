@@ -14,6 +14,8 @@ namespace rondo::contact {
 
 /// Impulses of a step by the keys of its contacts, ascending.                             [N·s/m]
 using KeptImpulses = std::vector<std::pair<std::uint64_t, Vec2>>;
+/// The impulse on the contact of this key; 0: there was no such contact.
+[[nodiscard]] Vec2 kept_impulse(const KeptImpulses& kept, std::uint64_t key) noexcept;
 
 /// The larger diagonal entry of a block.
 inline double larger_diagonal(const Block& w) noexcept {
@@ -36,8 +38,8 @@ struct CoupledContacts {
   /// Finds `impulse` and `status`, and keeps the problem where it was difficult.
   const CoupledResult& solve();
 
-  /// The impulse of the previous step on the contact of this key; 0: there was no such contact.
-  [[nodiscard]] Vec2 kept_of(std::uint64_t key) const noexcept;
+  /// Impulse of the previous step, see kept_impulse().
+  [[nodiscard]] Vec2 kept_of(std::uint64_t key) const noexcept { return kept_impulse(kept, key); }
   void sort_kept() noexcept;
 
   CoupledLimits limits;

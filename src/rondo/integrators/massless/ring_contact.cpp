@@ -85,6 +85,17 @@ Vec2 MasslessContact::law_velocity(const RingContact& c,
   return {(c.gap + dot(c.normal, from_predicted)) / step_->dt, to_frame(c.normal, way).y};
 }
 
+/// A law is asked with the place and the slip that the node has now, and the impulse of before.
+double MasslessContact::friction_of(const RingContact& c) const noexcept {
+  const contact::Friction& friction = model_.contact->law.friction;
+  if (friction.is_constant()) return friction.constant();
+  const std::size_t i = at(c.node);
+  const Vec2 arm = model_.reference[at(nodes()[i])] + motion_.place[i];
+  const Vec2 w = to_frame(c.normal, velocity_before(*step_, arm, motion_.before[i]));
+  return friction.coefficient({step_->center + step_->rotation * arm, std::abs(w.y),
+                               c.impulse.x / (step_->dt * model_.contact->tributary[i])});
+}
+
 void MasslessContact::join(int node, const contact::Touch& touch) {
   joined_[at(node)] = 1;
   RingContact c;
@@ -94,6 +105,7 @@ void MasslessContact::join(int node, const contact::Touch& touch) {
   const auto before = std::ranges::lower_bound(now_.contacts, node, {},
                                                [](const RingContact& b) { return b.node; });
   if (before != now_.contacts.end() && before->node == node) c.impulse = before->impulse;
+  c.friction = friction_of(c);
   next_.contacts.push_back(c);
 }
 
@@ -129,7 +141,7 @@ void MasslessContact::make_problem() {
   for (RingContact& c : contacts) {
     columns_.push_back(matrix_.inverse_column(c.node));
     c.free = law_velocity(c, free_);
-    coupled_.add(c.free, 0.0, model_.contact->law.friction.constant(), c.impulse);
+    coupled_.add(c.free, 0.0, c.friction, c.impulse);
   }
   const double scale = 1.0 / (step_->dt * step_->dt * (1.0 + lag_));
   const auto to_frame_of = [&](const RingContact& c) {

@@ -22,6 +22,7 @@ struct RingContact {
   double gap = 0.0;  ///< along it                                                     [m]
   Vec2 free;         ///< (gap, way along t)/Δt without forces of contact              [m/s]
   Vec2 impulse;      ///< Δt λ: of the ground on the node, (normal, tangential)        [N·s/m]
+  double friction = 0.0;  ///< μ of the law in the solution at hand; not kept
   double residual = 0.0;  ///< residual of the law, over the node's scale of mass           [m/s]
   contact::Status status = contact::Status::open;
 };
@@ -92,6 +93,7 @@ class MasslessContact {
   void load_ring() noexcept;
   void predict();
   void join(int node, const contact::Touch& touch);
+  [[nodiscard]] double friction_of(const RingContact& contact) const noexcept;
   void make_problem();
   void solve_law();
   void move_ring(std::span<const RingContact> by, std::span<Vec2> change) noexcept;

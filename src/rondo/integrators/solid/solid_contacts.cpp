@@ -7,27 +7,42 @@
 
 namespace rondo::dynamics {
 
-ContactReport solve_solid_contacts(const Model& model, const SolidContactStep& step,
-                                   std::span<const Vec3> u, std::span<const Vec3> v,
-                                   std::span<Vec3> next,
-                                   std::vector<ActiveContact>& active) noexcept {
+SolidContacts::SolidContacts(const Model& model) : model_(model) {
+  if (!model.contact) return;
+  const std::size_t most = 2 * model.contact->nodes.size();
+  active_.reserve(most);
+  if (!has_friction_law(model)) return;
+  kept_.reserve(most);
+  before_.reserve(most);
+}
+
+ContactReport SolidContacts::solve(const SolidContactStep& step, std::span<const Vec3> u,
+                                   std::span<const Vec3> v, std::span<Vec3> next) noexcept {
   ContactReport report;
-  active.clear();
-  if (!model.contact) return report;
-  RONDO_ASSERT(u.size() == model.n_nodes() && v.size() == model.n_nodes() &&
-                   next.size() == model.n_nodes() && model.solid,
-               u.size(), v.size(), next.size(), model.n_nodes());
-  const ContactModel& contact = *model.contact;
+  active_.clear();
+  if (!model_.contact) return report;
+  RONDO_ASSERT(u.size() == model_.n_nodes() && v.size() == model_.n_nodes() &&
+                   next.size() == model_.n_nodes() && model_.solid,
+               u.size(), v.size(), next.size(), model_.n_nodes());
+  const ContactModel& contact = *model_.contact;
+  std::swap(before_, kept_);
+  kept_.clear();
   for (std::size_t candidate = 0; candidate < contact.nodes.size(); ++candidate) {
     const auto k = static_cast<std::size_t>(contact.nodes[candidate]);
-    const Vec3 arm = Vec3(model.reference[k], model.solid->axial[k]) + u[k];
+    const Vec3 arm = Vec3(model_.reference[k], model_.solid->axial[k]) + u[k];
     const contact::Touches touches = contact.ground.touches(place_on_ground(step, arm));
     if (touches.count == 0) continue;
-    const std::size_t first = active.size();
-    active.resize(first + static_cast<std::size_t>(touches.count));
-    const SolidContactNode node{candidate, model.mass[k], contact.tributary[candidate],
-                                arm,       v[k],          next[k]};
-    next[k] = solve_contacts(step, node, touches, std::span(active).subspan(first), report);
+    const std::size_t first = active_.size(), count = static_cast<std::size_t>(touches.count);
+    active_.resize(first + count);
+    const std::span active = std::span(active_).subspan(first);
+    SolidContactNode node{
+        candidate, model_.mass[k], contact.tributary[candidate], arm, v[k], next[k], {}};
+    for (std::size_t i = 0; i < count && !contact.law.friction.is_constant(); ++i)
+      node.pressure[i] =
+          contact::kept_impulse(before_, 2 * candidate + i).x / (model_.dt * node.tributary);
+    next[k] = solve_contacts(step, node, touches, active, report);
+    for (std::size_t i = 0; i < count && !contact.law.friction.is_constant(); ++i)
+      kept_.emplace_back(2 * candidate + i, active[i].impulse.plane());
   }
   return report;
 }

@@ -1,20 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Contacts of a step of a wheel in three dimensions: every candidate looks for the ground
-/// by itself, for none shares a node with another.
+/// by itself, because none shares a node with another.
 #pragma once
 #include <vector>
 
+#include "rondo/contact/coupled/coupled_contacts.hpp"
 #include "rondo/integrators/solid/solid_forces.hpp"
 #include "rondo/model/solid/solid_contact.hpp"
 
 namespace rondo::dynamics {
 
-/// Solves what touches at u_{n+1}. @param v v_{n+1/2}
-/// @param next v_{n+3/2} without contact, becomes that with it
-/// @param active filled; has room for each candidate twice
-ContactReport solve_solid_contacts(const Model& model, const SolidContactStep& step,
-                                   std::span<const Vec3> u, std::span<const Vec3> v,
-                                   std::span<Vec3> next,
-                                   std::vector<ActiveContact>& active) noexcept;
+class SolidContacts {
+ public:
+  explicit SolidContacts(const Model& model);
+
+  /// Solves what touches at u_{n+1}. @param v v_{n+1/2}
+  /// @param next v_{n+3/2} without contact, becomes that with it
+  ContactReport solve(const SolidContactStep& step, std::span<const Vec3> u,
+                      std::span<const Vec3> v, std::span<Vec3> next) noexcept;
+  /// Contacts of the last step, in the order of the candidates.
+  [[nodiscard]] const std::vector<ActiveContact>& active() const noexcept { return active_; }
+
+  /// What the next step asks a friction law with: empty where friction is a constant.
+  [[nodiscard]] const contact::KeptImpulses& impulses() const noexcept { return kept_; }
+  void set_impulses(const contact::KeptImpulses& impulses) { kept_ = impulses; }
+
+ private:
+  const Model& model_;
+  std::vector<ActiveContact> active_;
+  contact::KeptImpulses kept_, before_;  ///< of the last step, and of that before
+};
 
 }  // namespace rondo::dynamics

@@ -5,7 +5,6 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/general/step_traps.hpp"
-#include "rondo/integrators/solid/solid_contacts.hpp"
 
 namespace rondo::dynamics {
 SolidIntegrator::SolidIntegrator(const Model& model, const State& start)
@@ -15,11 +14,11 @@ SolidIntegrator::SolidIntegrator(const Model& model, const State& start)
       u_(to_vector(start.u.space())),
       v_(model.n_nodes()),
       v_next_(to_vector(start.v_next.space())),
-      forces_(model, u_) {
+      forces_(model, u_),
+      contacts_(model) {
   RONDO_DEMAND(!model.rim && model.scheme == Scheme::symplectic);
   RONDO_DEMAND(v_next_.size() == model.n_nodes() && model.dt > 0.0, v_next_.size(), model.n_nodes(),
                model.dt);
-  if (model.contact) active_.reserve(2 * model.contact->nodes.size());
 }
 
 /// u_{n+1}, and the energy of the half step before it.
@@ -72,8 +71,8 @@ StepReport SolidIntegrator::step() noexcept {
   StepReport report;
   report.step = step_;
   report.frame = frame_;
-  report.contact = solve_solid_contacts(model_, SolidContactStep(model_, frame_, update, axial_a),
-                                        u_, v_, v_next_, active_);
+  report.contact =
+      contacts_.solve(SolidContactStep(model_, frame_, update, axial_a), u_, v_, v_next_);
   add_works(energy.works);
   set_contact_works(report.contact, energy.works);
   ledger_.add(energy);
@@ -88,7 +87,7 @@ void SolidIntegrator::advance(std::span<StepReport> reports, State* last) noexce
   last->step = step_;
   last->frame = frame_;
   last->u = u_;
-  last->active = active_;
+  last->active = contacts_.active();
   if (last->v.empty()) return;
   last->v = v_;
   if (last->v_next.empty()) return;
@@ -107,6 +106,7 @@ SavedState SolidIntegrator::save() const {
   saved.u = u_;
   saved.v = v_next_;
   saved.force = forces_.saved();
+  saved.impulses = contacts_.impulses();
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -119,6 +119,7 @@ void SolidIntegrator::restore(const SavedState& saved) {
   u_ = to_vector(saved.u.space());
   v_next_ = to_vector(saved.v.space());
   forces_.restore(saved.force);
+  contacts_.set_impulses(saved.impulses);
   ledger_.restore(saved.ledger);
 }
 

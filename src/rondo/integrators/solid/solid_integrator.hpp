@@ -3,9 +3,9 @@
 /// term (docs/wheel3d.md): the reference that the fused one (integrators/fused/solid) is held to.
 /// The scheme is that of the plane (docs/theory.md, section 3), its axial part without rotation.
 #pragma once
+#include "rondo/integrators/solid/solid_contacts.hpp"
 #include "rondo/integrators/solid/solid_forces.hpp"
 #include "rondo/model/integrator.hpp"
-#include "rondo/model/solid/solid_contact.hpp"
 
 namespace rondo::dynamics {
 
@@ -37,7 +37,7 @@ class SolidIntegrator final : public Integrator, public Resumable {
   FrameStep frame_;
   std::vector<Vec3> u_, v_, v_next_;
   SolidForces forces_;
-  std::vector<ActiveContact> active_;
+  SolidContacts contacts_;
   Ledger ledger_;
 };
 

@@ -5,7 +5,6 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/general/step_traps.hpp"
-#include "rondo/integrators/solid/solid_contacts.hpp"
 
 namespace rondo::dynamics {
 
@@ -19,7 +18,8 @@ SolidWheelIntegrator::SolidWheelIntegrator(const Model& model, const State& star
       v_(model.n_nodes()),
       v_next_(model.n_nodes()),
       absolute_(model.n_nodes()),
-      forces_(model, u_) {
+      forces_(model, u_),
+      contacts_(model) {
   RONDO_DEMAND(model.rim && model.scheme == Scheme::symplectic);
   RONDO_DEMAND(start.v_next.size() == model.n_nodes() && !start.rim.empty(), start.v_next.size(),
                model.n_nodes(), start.rim.size());
@@ -28,7 +28,6 @@ SolidWheelIntegrator::SolidWheelIntegrator(const Model& model, const State& star
     next_[k] = u_[k] + model.dt * start.v_next.space()[k];
     absolute_[k] = rim_.frame().rotation * rim_.velocity_of(arm(k), next_[k] - u_[k]);
   });
-  if (model.contact) active_.reserve(2 * model.contact->nodes.size());
 }
 
 /// The rim and u to t_{n+1}; energy of the half step before.
@@ -58,8 +57,7 @@ ContactReport SolidWheelIntegrator::push(Vec3 gravity, Vec3& force, double& mome
     v_next_[k] = v_[k] + model_.dt * ((forces_.load(k) - q) / m + gravity);
   });
   force = frame.rotation * sum;
-  const ContactReport report =
-      solve_solid_contacts(model_, SolidContactStep(model_, frame), u_, v_, v_next_, active_);
+  const ContactReport report = contacts_.solve(SolidContactStep(model_, frame), u_, v_, v_next_);
   for_free_nodes(model_,
                  [&](std::size_t k) { absolute_[k] += frame.rotation * (v_next_[k] - v_[k]); });
   return report;
@@ -124,7 +122,7 @@ void SolidWheelIntegrator::advance(std::span<StepReport> reports, State* last) n
   last->step = step_;
   last->frame = rim_.frame();
   last->u = u_;
-  last->active = active_;
+  last->active = contacts_.active();
   if (last->v.empty()) return;
   const bool after = !last->v_next.empty();
   for_free_nodes(model_, [&](std::size_t k) {
@@ -147,6 +145,7 @@ SavedState SolidWheelIntegrator::save() const {
   saved.v = absolute_;
   saved.force = forces_.saved();
   saved.rim = rim_.save();
+  saved.impulses = contacts_.impulses();
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -162,6 +161,7 @@ void SolidWheelIntegrator::restore(const SavedState& saved) {
   absolute_ = to_vector(saved.v.space());
   forces_.restore(saved.force);
   rim_.restore(saved.step, saved.rim);
+  contacts_.set_impulses(saved.impulses);
   ledger_.restore(saved.ledger);
 }
 

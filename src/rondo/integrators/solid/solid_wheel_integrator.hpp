@@ -2,6 +2,7 @@
 /// @file  The step of a wheel in three dimensions on a loaded rim: that of the plane
 /// (integrators/general/wheel_integrator.hpp) with absolute velocities along the axle as well.
 #pragma once
+#include "rondo/integrators/solid/solid_contacts.hpp"
 #include "rondo/integrators/solid/solid_forces.hpp"
 #include "rondo/integrators/solid/solid_rim.hpp"
 #include "rondo/model/integrator.hpp"
@@ -43,7 +44,7 @@ class SolidWheelIntegrator final : public Integrator, public Resumable {
   std::vector<Vec3> v_, v_next_;         ///< absolute, in the axes of R_{n+1}                 [m/s]
   std::vector<Vec3> absolute_;           ///< V of the half step after, axes of the wheel      [m/s]
   SolidForces forces_;
-  std::vector<ActiveContact> active_;
+  SolidContacts contacts_;
   Ledger ledger_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "rondo/contact/cone_pair.hpp"
 #include "rondo/core/keep_larger.hpp"
@@ -75,9 +76,9 @@ bool solve_in_turn(const Mobility& w, std::span<const Frame> frames,
   return still;
 }
 
-/// Solves by cases, with one μ for both; if none is accepted, in turn.
-void solve_two(const Mobility& w, std::span<const Frame> frames, std::span<ActiveContact> contacts,
-               ContactReport& report) noexcept {
+/// @pre both have one μ. @return whether a case was accepted
+bool solve_by_cases(const Mobility& w, std::span<const Frame> frames,
+                    std::span<ActiveContact> contacts) noexcept {
   const ActiveContact &a = contacts[0], &b = contacts[1];
   const auto pair = contact::solve_spatial_pair({a.free,
                                                  delassus(w, frames[0], frames[0]),
@@ -88,9 +89,25 @@ void solve_two(const Mobility& w, std::span<const Frame> frames, std::span<Activ
     contacts[i].impulse = pair.contact[i].impulse;
     contacts[i].status = pair.contact[i].status;
   }
+  return pair.converged;
+}
+
+/// Solves by cases, which takes one μ for both; if that is not so or none is accepted, in turn.
+void solve_two(const Mobility& w, std::span<const Frame> frames, std::span<ActiveContact> contacts,
+               ContactReport& report) noexcept {
   ++report.pairs;
-  if (pair.converged || solve_in_turn(w, frames, contacts)) return;
-  ++report.pairs_not_converged;
+  const bool one_friction = contacts[0].friction == contacts[1].friction;
+  if (one_friction && solve_by_cases(w, frames, contacts)) return;
+  if (!solve_in_turn(w, frames, contacts)) ++report.pairs_not_converged;
+}
+
+double friction_of(const SolidContactStep& s, const SolidContactNode& node, const ActiveContact& c,
+                   std::size_t i) noexcept {
+  const contact::Friction& friction = s.plane.law->friction;
+  if (friction.is_constant()) return friction.constant();
+  const Vec3 place =
+      Vec3(s.plane.center, s.lateral) + s.ground.from_wheel(s.plane.rotation * node.arm);
+  return friction.coefficient({place, std::hypot(c.before.y, c.before.z), node.pressure[i]});
 }
 
 /// b of (4.2), axes of the wheel.
@@ -177,12 +194,13 @@ SolidContactStep::SolidContactStep(const Model& model, const FrameStep& f,
                                    const VelocityUpdate& update, double axial) noexcept
     : plane(model, f, update),
       ground(model.motion.camber),
+      lateral(f.center.z),
       axial_a(axial),
       center_rate(ground.to_wheel(f.advance) / model.dt),
       center_rate_before(ground.to_wheel(f.advance_before) / model.dt) {}
 
 SolidContactStep::SolidContactStep(const Model& model, const FrameStep& f) noexcept
-    : plane(model, f), ground(model.motion.camber), axial_a(1.0) {}
+    : plane(model, f), ground(model.motion.camber), lateral(f.center.z), axial_a(1.0) {}
 
 Vec3 solve_contacts(const SolidContactStep& s, const SolidContactNode& node,
                     const contact::Touches& touches, std::span<ActiveContact> contacts,
@@ -200,7 +218,7 @@ Vec3 solve_contacts(const SolidContactStep& s, const SolidContactNode& node,
     c.before = frames[i].to(before);
     c.free = frames[i].to(free);
     c.bounce = contact::restitution_shift(*s.plane.law, c.before.x, c.before.x);
-    c.friction = s.plane.law->friction.constant();
+    c.friction = friction_of(s, node, c, i);
   }
   const Mobility w{s.plane.turn / (node.mass * s.plane.a), 1.0 / (node.mass * s.axial_a)};
   if (contacts.size() == 2)

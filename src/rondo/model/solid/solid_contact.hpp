@@ -3,6 +3,7 @@
 /// contact_node.hpp (docs/wheel3d.md). The law is solved in the right-handed ground frame (n, J n,
 /// t2), where J n is the tangent of contact/ground.hpp.
 #pragma once
+#include <array>
 #include <span>
 
 #include "rondo/contact/cone.hpp"
@@ -21,6 +22,7 @@ struct SolidContactStep {
 
   ContactStep plane;  ///< its center and rates are along t1 and n
   GroundFrame ground;
+  double lateral;  ///< of c_{n+1}, along t2                                    [m]
   double axial_a;
   Vec3 center_rate;         ///< (c_{n+2} - c_{n+1})/Δt                        [m/s]
   Vec3 center_rate_before;  ///< (c_{n+1} - c_n)/Δt                            [m/s]
@@ -28,12 +30,13 @@ struct SolidContactStep {
 
 /// A candidate at t_{n+1}; vectors are in the co-rotating frame.
 struct SolidContactNode {
-  std::size_t candidate = 0;  ///< index in ContactModel::nodes
-  double mass = 0.0;          ///< [kg]
-  double tributary = 0.0;     ///< [m²]
-  Vec3 arm;                   ///< X + u_{n+1}                                   [m]
-  Vec3 before;                ///< v_{n+1/2}                                     [m/s]
-  Vec3 free;                  ///< v_{n+3/2} without impulse                     [m/s]
+  std::size_t candidate = 0;         ///< index in ContactModel::nodes
+  double mass = 0.0;                 ///< [kg]
+  double tributary = 0.0;            ///< [m²]
+  Vec3 arm;                          ///< X + u_{n+1}                                   [m]
+  Vec3 before;                       ///< v_{n+1/2}                                     [m/s]
+  Vec3 free;                         ///< v_{n+3/2} without impulse                     [m/s]
+  std::array<double, 2> pressure{};  ///< see ContactNode                          [Pa]
 };
 
 /// Position of a node along t1 and n, at which the ground is searched                [m]

@@ -87,7 +87,7 @@ constexpr std::array limits{
           "the forces of the material are no product with a stiffness"},
     Limit{has::implicit, 0, bodies, "the step has no implicit elements"},
     Limit{has::massless, 0, bodies, "the step needs nodes with mass"},
-    Limit{has::friction_law, 0, cyclic | sparse,
+    Limit{has::friction_law, 0, cyclic | sparse | bit(StepKind::solid_cyclic),
           "the step takes one coefficient of friction for all contacts"},
     Limit{has::hati, 0, plane, "the scheme \"hati\" has a step of its own"},
     Limit{has::other_scheme, 0, fused, "a scheme other than \"symplectic\" needs the general step"},
@@ -124,8 +124,6 @@ constexpr std::array limits{
           "so that a narrow wheel is close to plane stress"},
     Limit{has::other_scheme, has::three_dimensions, any,
           "a wheel in three dimensions needs the scheme \"symplectic\""},
-    Limit{has::friction_law, has::three_dimensions, any,
-          "a wheel in three dimensions has one coefficient of friction for all contacts"},
     Limit{has::free_bodies, has::loaded_rim, any,
           "a body is free: a [rim] moves bodies that it holds"},
     Limit{has::massless, has::loaded_rim, any,
@@ -157,8 +155,6 @@ constexpr std::array limits{
           "ground.impact = \"energy-safe\" is a law of velocities, and that of nodes without mass "
           "is one "
           "of gaps"},
-    Limit{has::massless, has::friction_law, any,
-          "contact nodes without mass have one coefficient of friction for all contacts"},
     Limit{has::massless, has::rubber, any,
           "the positions of contact nodes without mass follow from the stiffness of small strain, "
           "which rubber does not have"},
@@ -195,8 +191,6 @@ constexpr std::array limits{
     Limit{has::rubber, has::reduced, any,
           "a reduced run is computed at small strain, rubber at finite strain"},
     Limit{has::own_material, has::reduced, any, "a reduced run needs linear materials"},
-    Limit{has::friction_law, has::reduced, any,
-          "a reduced run has one coefficient of friction for all contacts"},
     Limit{has::implicit, has::reduced, any, "a reduced run has modes instead of elements"},
     Limit{has::massless, has::reduced, any, "a reduced run needs contact nodes with mass"},
     Limit{has::other_scheme, has::reduced, any, "a reduced run has a scheme of its own"},

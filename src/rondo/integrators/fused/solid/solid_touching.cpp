@@ -73,7 +73,8 @@ void SolidChunk::solve_node(const Work& work, const Touching& t) noexcept {
   const Complex frame = this->frame(t.row, t.column);
   const Vec3 u = at(t.row, work.now, t.column), free = at(t.row, field_v, t.column);
   const SolidContactNode node{
-      k, row.mass, model_.contact->tributary[k], frame * arm(t.row, u), frame * t.v, frame * free};
+      k, row.mass, model_.contact->tributary[k], frame * arm(t.row, u), frame * t.v, frame * free,
+      {}};
   std::array<ActiveContact, 2> contacts;
   const std::span active(contacts.data(), static_cast<std::size_t>(t.touches.count));
   ContactReport report;
