@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <array>
 
-#include "rondo/core/index.hpp"
-
 #include "sections.hpp"
 
 namespace rondo::reader {
@@ -25,7 +23,8 @@ void read_format(Counting& c) {
 
 std::string group_text(const Id& group) {
   constexpr std::array<const char*, 4> kinds{"point", "curve", "surface", "volume"};
-  return std::string("physical ") + kinds[at(group.first)] + " " + std::to_string(group.second);
+  return std::string("physical ") + kinds[static_cast<std::size_t>(group.first)] + " " +
+         std::to_string(group.second);
 }
 
 void read_names(Counting& c) {

@@ -2,8 +2,6 @@
 #include <array>
 #include <cstdlib>
 
-#include "rondo/core/index.hpp"
-
 #include "sections.hpp"
 
 namespace rondo::reader {
@@ -17,7 +15,7 @@ std::uint64_t count(Counting& c) {
 }
 
 std::string entity_text(int dimension, int tag) {
-  return std::string(kinds[at(dimension)]) + " " + std::to_string(tag);
+  return std::string(kinds[static_cast<std::size_t>(dimension)]) + " " + std::to_string(tag);
 }
 
 /// Position or box, physical tags, and, except for points, the bounding entities.
@@ -106,7 +104,7 @@ void count_entities_41(Counting& c) {
   if (c.in.is_binary()) c.in.end_line();
   const Counts n = announce_entities(c);
   for (int dimension = 0; dimension < 4; ++dimension)
-    for (std::uint64_t k = 0; k < n[at(dimension)]; ++k, c.in.next_thing())
+    for (std::uint64_t k = 0; k < n[static_cast<std::size_t>(dimension)]; ++k, c.in.next_thing())
       rest_of_entity(c, dimension, c.in.get<int>());
   c.in.end_section();
 }
@@ -121,7 +119,7 @@ void count_parts_41(Counting& c) {
   }
   const Counts n = announce_entities(c);
   for (int dimension = 0; dimension < 4; ++dimension)
-    for (std::uint64_t k = 0; k < n[at(dimension)]; ++k, c.in.next_thing())
+    for (std::uint64_t k = 0; k < n[static_cast<std::size_t>(dimension)]; ++k, c.in.next_thing())
       count_part(c, dimension);
   c.in.end_section();
   for (const int tag : ghosts)

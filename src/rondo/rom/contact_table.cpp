@@ -115,7 +115,7 @@ void ContactTable::prepare(std::span<const int> points, const StepMatrices& matr
 }
 
 DelassusPair ContactTable::pair(int at, int from) const noexcept {
-  const Index i = 2 * slot_[at(at)];
+  const Index i = 2 * slot_[static_cast<std::size_t>(at)];
   const Index j = 2 * slot_[at(from)];
   const MatrixXd& slip = stands_still() ? tangential_ : normal_;
   return {normal_.block<2, 2>(i, j), slip.block<2, 2>(i, j)};
