@@ -31,9 +31,8 @@ MasslessContact::MasslessContact(const Model& model)
       coupled_({.most_iterations = model.coupled.most_iterations}, model.coupled.dump_above) {
   RONDO_DEMAND(has_massless_contact(model) && !model.stiffness.row_start.empty());
   RONDO_DEMAND(matrix_.is_positive_definite());
-  RONDO_DEMAND(model.dt > 0.0 && !has_friction_law(model) &&
-                   model.contact->tributary.size() == nodes().size(),
-               model.dt, model.contact->tributary.size(), nodes().size());
+  RONDO_DEMAND(model.dt > 0.0 && model.contact->tributary.size() == nodes().size(), model.dt,
+               model.contact->tributary.size(), nodes().size());
   const std::size_t nc = nodes().size(), ni = neighbours().size();
   motion_ = {std::vector<Vec2>(nc + ni), std::vector<Vec2>(ni), std::vector<Vec2>(nc)};
   star_.resize(nc + ni);

@@ -25,6 +25,7 @@ ContactReport SolidContacts::solve(const SolidContactStep& step, std::span<const
                    next.size() == model_.n_nodes() && model_.solid,
                u.size(), v.size(), next.size(), model_.n_nodes());
   const ContactModel& contact = *model_.contact;
+  const bool asks = !contact.law.friction.is_constant();
   std::swap(before_, kept_);
   kept_.clear();
   for (std::size_t candidate = 0; candidate < contact.nodes.size(); ++candidate) {
@@ -37,11 +38,11 @@ ContactReport SolidContacts::solve(const SolidContactStep& step, std::span<const
     const std::span active = std::span(active_).subspan(first);
     SolidContactNode node{
         candidate, model_.mass[k], contact.tributary[candidate], arm, v[k], next[k], {}};
-    for (std::size_t i = 0; i < count && !contact.law.friction.is_constant(); ++i)
+    for (std::size_t i = 0; asks && i < count; ++i)
       node.pressure[i] =
           contact::kept_impulse(before_, 2 * candidate + i).x / (model_.dt * node.tributary);
     next[k] = solve_contacts(step, node, touches, active, report);
-    for (std::size_t i = 0; i < count && !contact.law.friction.is_constant(); ++i)
+    for (std::size_t i = 0; asks && i < count; ++i)
       kept_.emplace_back(2 * candidate + i, active[i].impulse.plane());
   }
   return report;
