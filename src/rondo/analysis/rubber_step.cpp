@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "rondo/core/index.hpp"
 #include "rondo/fem/hyperelastic/hyperelasticity.hpp"
 
 namespace rondo::study {
@@ -31,7 +30,8 @@ double row_sum_bound(const fem::BlockCsr& k, std::span<const double> mass,
     for (auto b = k.row_start[row]; b < k.row_start[row + 1]; ++b) {
       const auto at = static_cast<std::size_t>(b);
       const auto [xx, yx, xy, yy] = k.values[at];
-      const double scale = 1.0 / std::sqrt(mass[row] * mass[at(k.column[at])]);
+      const double scale =
+          1.0 / std::sqrt(mass[row] * mass[static_cast<std::size_t>(k.column[at])]);
       x += scale * (std::abs(xx) + std::abs(xy));
       y += scale * (std::abs(yx) + std::abs(yy));
     }

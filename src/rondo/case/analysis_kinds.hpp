@@ -6,8 +6,6 @@
 #include <iterator>
 #include <string_view>
 
-#include "rondo/core/index.hpp"
-
 namespace rondo::study {
 
 struct Case;
@@ -33,7 +31,7 @@ inline constexpr KindOfCase analysis_kinds[] = {
 };
 
 constexpr const KindOfCase& rules_of(AnalysisKind kind) noexcept {
-  return analysis_kinds[at(kind)];
+  return analysis_kinds[static_cast<std::size_t>(kind)];
 }
 
 }  // namespace rondo::study

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/core/index.hpp"
 #include "rondo/core/text/edit_distance.hpp"
 
 namespace rondo::study {
@@ -40,7 +39,7 @@ constexpr Words words[] = {
 };
 
 const Words& words_of(KeyType type) {
-  return words[at(type)];
+  return words[static_cast<std::size_t>(type)];
 }
 
 std::string range_text(const Range& r, bool whole) {

@@ -16,7 +16,6 @@
 #include "rondo/core/build_record.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/error.hpp"
-#include "rondo/core/index.hpp"
 #include "rondo/core/version.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
 #include "rondo/io/directory.hpp"
@@ -222,7 +221,7 @@ void note_failure(const RunOptions& options, Json json, const std::exception& er
 void add_status(Json& json, RunStatus status, const std::string& message) {
   static constexpr std::array<const char*, 3> names{"done", "interrupted", "failed"};
   static_assert(static_cast<std::size_t>(RunStatus::failed) + 1 == names.size());
-  add_members(status_members, {names[at(status)], message}, json);
+  add_members(status_members, {names[static_cast<std::size_t>(status)], message}, json);
 }
 
 const char* dispatch_level() {

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "rondo/core/index.hpp"
-
 namespace rondo::rom {
 namespace {
 
@@ -40,10 +38,10 @@ Vec2 ContactTable::at(int k, const VectorXd& coefficients) const {
 }
 
 double ContactTable::length(int k, const VectorXd& q) const {
-  const double share = share_[at(k)];
+  const double share = share_[static_cast<std::size_t>(k)];
   const Vec2 u = at(k, q);
   double undeformed = 0.0, deformed = 0.0;
-  for (const int other : beside_[at(k)]) {
+  for (const int other : beside_[static_cast<std::size_t>(k)]) {
     if (other < 0) continue;
     const Vec2 way = point(other) - point(k);
     undeformed += norm(way);
@@ -77,7 +75,7 @@ void ContactTable::grow(Index slots) {
 void ContactTable::prepare(std::span<const int> points, const StepMatrices& matrices) {
   const auto before = static_cast<Index>(known_.size());
   for (const int point : points) {
-    int& slot = slot_[at(point)];
+    int& slot = slot_[static_cast<std::size_t>(point)];
     if (slot >= 0) continue;
     slot = static_cast<int>(known_.size());
     known_.push_back(point);
@@ -87,7 +85,7 @@ void ContactTable::prepare(std::span<const int> points, const StepMatrices& matr
   portion_ends_.push_back(known_.size());
   grow(now);
   for (Index s = before; s < now; ++s) {
-    const Index row = 2 * static_cast<Index>(known_[at(s)]);
+    const Index row = 2 * static_cast<Index>(known_[static_cast<std::size_t>(s)]);
     slot_rows_.middleRows(2 * s, 2) = rows_.middleRows(row, 2);
     if (stands_still()) slot_carried_.middleRows(2 * s, 2) = carried_.middleRows(row, 2);
   }
@@ -116,13 +114,13 @@ void ContactTable::prepare(std::span<const int> points, const StepMatrices& matr
 
 DelassusPair ContactTable::pair(int at, int from) const noexcept {
   const Index i = 2 * slot_[static_cast<std::size_t>(at)];
-  const Index j = 2 * slot_[at(from)];
+  const Index j = 2 * slot_[static_cast<std::size_t>(from)];
   const MatrixXd& slip = stands_still() ? tangential_ : normal_;
   return {normal_.block<2, 2>(i, j), slip.block<2, 2>(i, j)};
 }
 
 void ContactTable::forget() noexcept {
-  for (const int point : known_) slot_[at(point)] = -1;
+  for (const int point : known_) slot_[static_cast<std::size_t>(point)] = -1;
   known_.clear();
   portion_ends_.clear();
 }

@@ -83,7 +83,7 @@ std::string LatinOutcome::missed(const statics::CrushState& state, double tolera
   const double allowed = tolerance * setup_.path.largest_depth();
   for (const std::size_t j : outside_) {
     if (state.slip[j].x >= -allowed) continue;
-    const Vec2 at = setup_.mesh.coordinates[at(setup_.model.nodes[j])];
+    const Vec2 at = setup_.mesh.coordinates[static_cast<std::size_t>(setup_.model.nodes[j])];
     return fmt::format(
         "the contact node at ({:.4g}, {:.4g}) m comes {:.3g} m into the ground and was not "
         "condensed, because it is {:.4g} m above it at first touch, more than twice the depth; "

@@ -11,7 +11,6 @@
 #include <tuple>
 
 #include "rondo/analysis/base/shared_members.hpp"
-#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -69,7 +68,7 @@ std::vector<MemberText> modes_members() {
 
 std::string name_of(Wave wave) {
   static constexpr std::array<const char*, 5> names{"", "standing", "forward", "backward", "rigid"};
-  return names[at(wave)];
+  return names[static_cast<std::size_t>(wave)];
 }
 
 std::string modes_table(const std::vector<ModeLine>& modes) {

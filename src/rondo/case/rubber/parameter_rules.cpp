@@ -8,7 +8,6 @@
 #include "rondo/case/case_rules.hpp"
 #include "rondo/case/rubber/material.hpp"
 #include "rondo/case/rubber/stable_range.hpp"
-#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -32,7 +31,7 @@ constexpr ModelWords models[] = {
 };
 
 const ModelWords& words_of(MaterialModel model) {
-  return models[at(model)];
+  return models[static_cast<std::size_t>(model)];
 }
 
 std::string parameters_of(MaterialModel model) {
@@ -90,7 +89,7 @@ void refuse_of_others(CaseValues& in, const Described& d) {
     std::string key = d.key(parameter.leaf);
     if (in.n_items(key) > 0) key = item_of(key, 0);
     const bool given = in.has(key) || in.has_table(key);
-    if (!given || parameter.of[at(d.law.model)]) continue;
+    if (!given || parameter.of[static_cast<std::size_t>(d.law.model)]) continue;
     in.fault(key,
              fmt::format("is a parameter of model = {}, but {}.model is \"{}\"",
                          models_with(parameter), d.table, words_of(d.law.model).name),
@@ -213,7 +212,8 @@ void complete_region(CaseValues& in, const Case& c, MaterialRegion& region, cons
   if (same) return;
   if (!in.has(d.key("viscosity"))) law.viscosity.clear();
   for (const Parameter& parameter : parameters)
-    if (parameter.is_needed && parameter.of[at(law.model)] && !in.has(d.key(parameter.leaf)))
+    if (parameter.is_needed && parameter.of[static_cast<std::size_t>(law.model)] &&
+        !in.has(d.key(parameter.leaf)))
       in.missing(d.key(parameter.leaf));
   if (!has_ratio && !has_bulk) in.missing(d.key("poissons_ratio"));
 }

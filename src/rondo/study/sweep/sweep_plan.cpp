@@ -9,7 +9,6 @@
 
 #include "rondo/case/case_keys.hpp"
 #include "rondo/case/toml_text.hpp"
-#include "rondo/core/index.hpp"
 
 namespace rondo::study {
 namespace {
@@ -46,7 +45,8 @@ std::vector<std::vector<double>> latin_hypercube(int dimensions, int n, std::uin
     std::vector<int> part(static_cast<std::size_t>(n));
     std::iota(part.begin(), part.end(), 0);
     for (std::size_t k = part.size(); k > 1; --k)  // Fisher-Yates shuffle
-      std::swap(part[k - 1], part[at(uniform(random) * static_cast<double>(k))]);
+      std::swap(part[k - 1],
+                part[static_cast<std::size_t>(uniform(random) * static_cast<double>(k))]);
     std::vector<double> row;
     for (const int p : part) row.push_back((p + uniform(random)) / n);
     points.push_back(std::move(row));

@@ -11,7 +11,6 @@
 
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/column.hpp"
-#include "rondo/core/index.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/output/run_files.hpp"
@@ -134,7 +133,7 @@ void write_h5(const std::filesystem::path& path, const SweepTables& t) {
 
 const char* name_of(MemberStatus status) noexcept {
   static constexpr std::array names{"waiting", "done", "failed", "interrupted"};
-  return names[at(status)];
+  return names[static_cast<std::size_t>(status)];
 }
 
 std::string packed(const MemberRow& row) {
