@@ -103,7 +103,7 @@ def test_reduced_models(case):
     assert np.abs(driven.center[-1, 0] - there.center[-1, 0]) > 1e-3
     with pytest.raises(rondo.InputError, match="keeps no checkpoints"):
         rondo.Simulation(case, output="x", reduced=model, resume=True)
-    with pytest.raises(rondo.InputError, match="--step-factor"):
+    with pytest.raises(rondo.InputError, match="^step_factor = -1: "):
         rondo.solve(case, reduced=model, step_factor=-1.0)
 
 

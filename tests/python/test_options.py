@@ -53,6 +53,6 @@ def test_errors_call_options_by_their_names_in_python(case):
         with pytest.raises(rondo.InputError, match=f"^{said}"):
             rondo.modes(case, "out", **options)
     rondo.run(case, "out", {"time.end": 0.001})
-    for options, said in [({"field": "heat"}, "field = heat: "), ({"from_time": 5.0, "to_time": 6.0}, "from_time, to_time: ")]:
+    for options, said in [({"field": "heat"}, "field = heat: "), ({"from_time": 5.0, "to_time": 6.0}, "from_time, to_time = 5 to 6 s: ")]:
         with pytest.raises(rondo.InputError, match=f"^{said}"):
             rondo.pod("out", **options)

@@ -11,13 +11,13 @@ struct Sums {
   Pack kinetic, strain, frame, mass, stiffness, load;
 };
 
-[[gnu::always_inline]] inline Sums no_sums() noexcept {
+inline Sums no_sums() noexcept {
   const Pack zero = all(0.0);
   return {zero, zero, zero, zero, zero, zero};
 }
 
 /// Adds the first n lanes.
-[[gnu::always_inline]] inline void add_first_lanes(int n, const Sums& part, Sums& sums) noexcept {
+inline void add_first_lanes(int n, const Sums& part, Sums& sums) noexcept {
   const Pack zero = all(0.0);
   sums.kinetic = sums.kinetic + first_lanes(n, part.kinetic, zero);
   sums.strain = sums.strain + first_lanes(n, part.strain, zero);
