@@ -46,7 +46,9 @@ void raise(const py::object& type, const char* text) {
   PyErr_SetString(type.ptr(), text);
 }
 
-/// As the package's errors (docs/python.md, What can go wrong).
+/// As the package's errors (docs/python.md, What can go wrong). The library that calls it gives a
+/// value.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 void translate(std::exception_ptr thrown) {
   try {
     if (thrown) std::rethrow_exception(thrown);
