@@ -68,7 +68,7 @@ TEST(CoupledContacts, KeepImpulsesByKey) {
   contacts.sort_kept();
   EXPECT_EQ(contacts.kept_of(7), (Vec2{1.0, 2.0}));
   EXPECT_EQ(contacts.kept_of(3), (Vec2{4.0, 5.0}));
-  for (const std::uint64_t other : {0, 5, 8}) EXPECT_EQ(contacts.kept_of(other), Vec2{});
+  for (const std::uint64_t other : {0U, 5U, 8U}) EXPECT_EQ(contacts.kept_of(other), Vec2{});
 }
 
 }  // namespace
