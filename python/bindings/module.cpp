@@ -46,8 +46,8 @@ void raise(const py::object& type, const char* text) {
   PyErr_SetString(type.ptr(), text);
 }
 
-/// As the package's errors (docs/python.md, What can go wrong). The library that calls it gives a
-/// value.
+/// Raises exceptions of the library as errors of the package (docs/python.md, What can go wrong).
+/// pybind11 requires a parameter by value.
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
 void translate(std::exception_ptr thrown) {
   try {

@@ -31,7 +31,7 @@ class ContactTable {
   /// Length of deformed boundary that belongs to a point: stretched like the distance to the
   /// adjacent points. @param q (r) displacement [m]
   [[nodiscard]] double length(int k, const VectorXd& q) const;
-  /// The same of the undeformed boundary [m].
+  /// Length of undeformed boundary that belongs to a point [m].
   [[nodiscard]] double share(int k) const noexcept { return share_[static_cast<std::size_t>(k)]; }
   /// Norm of the rows: |H q| <= reach |q|.
   [[nodiscard]] double reach(int k) const noexcept { return reach_[static_cast<std::size_t>(k)]; }

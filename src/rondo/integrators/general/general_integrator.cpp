@@ -11,6 +11,9 @@
 
 namespace rondo::dynamics {
 
+// Kept impulses of implicit elements and of other contacts are saved in one list.
+static_assert(ImplicitContact::key_bits >> 62U > static_cast<std::uint64_t>(ContactKind::segment));
+
 GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
     : model_(model),
       state_(start),

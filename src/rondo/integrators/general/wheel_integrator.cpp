@@ -37,13 +37,14 @@ WheelIntegrator::WheelIntegrator(const Model& model, const State& start)
   });
 }
 
-/// As the rim sees it, in the half step before u_{n+1}.
+/// Writes the velocities relative to the rim in the half step before u_{n+1}.
 void WheelIntegrator::relative_before(std::span<Vec2> velocity) const noexcept {
   RONDO_ASSERT(velocity.size() == model_.n_nodes(), velocity.size(), model_.n_nodes());
   const std::span u = state_.u.plane(), before = before_.plane();
   for_free_nodes(model_, [&](std::size_t k) { velocity[k] = (u[k] - before[k]) / model_.dt; });
 }
 
+/// Writes the velocities relative to the rim in the half step after u_{n+1}.
 void WheelIntegrator::relative_after(std::span<Vec2> velocity) const noexcept {
   RONDO_ASSERT(velocity.size() == model_.n_nodes(), velocity.size(), model_.n_nodes());
   const std::span u = state_.u.plane(), next = next_.plane();
