@@ -105,7 +105,7 @@ void start_wheel(const Model& model, std::span<const Vec2> load, State& state) {
   for_free_nodes(model, [&](std::size_t k) {
     const Vec2 velocity = center_velocity + v[k] + spin * turn90(arm(k)) +
                           0.5 * model.dt * (gravity - (force(k) - load[k]) / model.mass[k]);
-    state.v_next.plane()[k] = travel_on_rim(rim, model.dt, arm(k), velocity) / model.dt;
+    state.v_next.plane()[k] = rim.travel(arm(k), velocity) / model.dt;
   });
 }
 

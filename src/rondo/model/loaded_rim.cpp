@@ -192,14 +192,18 @@ RimForce pressure_on_rim(const Model& model, std::span<const Vec2> load) noexcep
 }
 
 /// y₂ = e^{-iδ}(y₁ + Δt R̄(V - ċ)), minus y₁.
-Vec2 travel_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 velocity) noexcept {
-  const Vec2 way = dt * (velocity - conj(rim.frame().rotation) * rim.velocity());
-  return way + conj(rim.turn()) * (arm + way);
+Vec2 LoadedRim::travel(Vec2 arm, Vec2 velocity) const noexcept {
+  const Vec2 way = model_.dt * (velocity - conj(frame_.rotation) * velocity_);
+  return way + conj(turn()) * (arm + way);
 }
 
-Vec2 velocity_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 travel) noexcept {
-  const Vec2 way = travel + rim.turn() * (arm + travel);
-  return way / dt + conj(rim.frame().rotation) * rim.velocity();
+Vec2 LoadedRim::velocity_of(Vec2 arm, Vec2 travel) const noexcept {
+  const Vec2 way = travel + turn() * (arm + travel);
+  return way / model_.dt + conj(frame_.rotation) * velocity_;
+}
+
+Vec2 LoadedRim::gravity() const noexcept {
+  return conj(frame_.rotation) * model_.motion.gravity_at(frame_.time);
 }
 
 }  // namespace rondo::dynamics

@@ -16,10 +16,12 @@ namespace rondo::dynamics {
 inline constexpr double most_turn = 0.3;
 
 /// Action of the internal forces q of the free nodes on the rim, in the co-rotating frame.
-struct RimForce {
-  Vec2 force;           ///< Σ q                                                         [N/m]
-  double moment = 0.0;  ///< Σ y × q about the center, y = X + u                            [N]
+template <class Vec>
+struct RimForceOf {
+  Vec force;            ///< Σ q                                                    [N/m], [N]
+  double moment = 0.0;  ///< Σ y × q about the axle, y = X + u                      [N], [N·m]
 };
+using RimForce = RimForceOf<Vec2>;
 
 class LoadedRim {
  public:
@@ -43,6 +45,16 @@ class LoadedRim {
   /// e^{iδ} - 1 at the same half steps, without cancellation.
   [[nodiscard]] Complex turn_before() const noexcept { return turn_minus_one(spin_before_); }
   [[nodiscard]] Complex turn() const noexcept { return turn_minus_one(spin_); }
+
+  /// Acceleration of gravity at t_{n+1}, in the co-rotating frame                      [m/s²]
+  [[nodiscard]] Vec2 gravity() const noexcept;
+  /// u_{n+2} - u_{n+1} of a node. @param arm X + u_{n+1} [m]
+  /// @param velocity V of the half step after, in the axes of R_{n+1} [m/s]
+  [[nodiscard]] Vec2 travel(Vec2 arm, Vec2 velocity) const noexcept;
+  /// V at the half step in between, in the axes of R_n, of a node that moves from u_n by `travel`.
+  [[nodiscard]] Vec2 velocity_of(Vec2 arm, Vec2 travel) const noexcept;
+  /// The motion in the plane in which the wheel turns: all of it.
+  [[nodiscard]] const LoadedRim& plane() const noexcept { return *this; }
 
   /// The rim's energies half a step before t_{n+1}, and its works in the step.
   [[nodiscard]] const StepEnergy& energy() const noexcept { return energy_; }
@@ -78,12 +90,5 @@ class LoadedRim {
 /// The part of the nodal forces on clamped nodes, which acts on the rim. @param load (n), or empty
 /// [N/m]
 [[nodiscard]] RimForce pressure_on_rim(const Model& model, std::span<const Vec2> load) noexcept;
-
-/// u_{n+2} - u_{n+1} of a node. @param arm X + u_{n+1} [m]
-/// @param velocity V of the half step after, in the axes of R_{n+1} [m/s]
-[[nodiscard]] Vec2 travel_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 velocity) noexcept;
-
-/// V at the half step in between, in the axes of R_n, of a node that moves from u_n by `travel`.
-[[nodiscard]] Vec2 velocity_on_rim(const LoadedRim& rim, double dt, Vec2 arm, Vec2 travel) noexcept;
 
 }  // namespace rondo::dynamics

@@ -45,8 +45,12 @@ TEST(Contracts, WithoutItsForcesAStepIsNotRestored) {
 }
 
 TEST(Contracts, ARingIsCutForOneThreadAtLeast) {
-  EXPECT_EQ(cut_ring(40, 32, 1, false, 1, {}).chunks.size(), 1U);
-  EXPECT_DEATH((void)cut_ring(40, 32, 1, false, 0, {}), "threads >= 1.*values: 40 32 0");
+  RingLayout layout;
+  layout.n_sectors = 40;
+  layout.group_columns = 32;
+  cut_ring(1, 4, {}, layout);
+  EXPECT_EQ(layout.cut.chunks.size(), 1U);
+  EXPECT_DEATH(cut_ring(0, 4, {}, layout), "threads >= 1.*values: 40 32 0");
 }
 
 }  // namespace contracts_test

@@ -92,8 +92,8 @@ TEST_P(CyclicCuts, GiveTheSameBitsOnAnyNumberOfThreads) {
   CyclicTuning in_cache;
   in_cache.cache_bytes = std::size_t{1} << 40U;
   const Outcome whole = after(b, model, in_cache);
-  EXPECT_EQ(make_cyclic_plan(model, in_cache).halo, Halo::ring);
-  EXPECT_EQ(make_cyclic_plan(model, in_cache).depth, 1);
+  EXPECT_EQ(make_cyclic_plan(model, in_cache).cut.halo, Halo::ring);
+  EXPECT_EQ(make_cyclic_plan(model, in_cache).cut.depth, 1);
   long contacts = 0, clusters = 0;
   for (const StepReport& report : whole.reports) {
     contacts += report.contact.nodes;
@@ -107,8 +107,9 @@ TEST_P(CyclicCuts, GiveTheSameBitsOnAnyNumberOfThreads) {
     for (const int threads : {1, 2, 3}) {
       model.threads = threads;
       const CyclicPlan plan = make_cyclic_plan(model, tuning);
-      SCOPED_TRACE(std::to_string(plan.chunks.size()) + " chunks, " + std::to_string(plan.depth) +
-                   " steps in a pass, " + std::to_string(threads) + " threads");
+      SCOPED_TRACE(std::to_string(plan.cut.chunks.size()) + " chunks, " +
+                   std::to_string(plan.cut.depth) + " steps in a pass, " + std::to_string(threads) +
+                   " threads");
       expect_same(whole, after(b, model, tuning));
     }
 }
@@ -121,13 +122,13 @@ TEST(CyclicCut, LargeDisksTakeSeveralStepsInAPassOverWideChunks) {
   const test::Built b = test::build(test::everything("wide", 9, 230));
   Model model = test::model_with(b, StiffnessOperator::cyclic);
   const CyclicPlan wide = make_cyclic_plan(model, {0, 32, 8});
-  EXPECT_EQ(wide.halo, Halo::wide);
-  EXPECT_EQ(wide.depth, most_steps_in_a_pass);
-  EXPECT_GT(wide.chunks.size(), 4U);
-  EXPECT_EQ(make_cyclic_plan(model, {0, 1 << 20, 8}).depth, most_steps_in_a_pass);
-  EXPECT_EQ(make_cyclic_plan(model, {0, 32, 1 << 20}).halo, Halo::narrow);
+  EXPECT_EQ(wide.cut.halo, Halo::wide);
+  EXPECT_EQ(wide.cut.depth, most_steps_in_a_pass);
+  EXPECT_GT(wide.cut.chunks.size(), 4U);
+  EXPECT_EQ(make_cyclic_plan(model, {0, 1 << 20, 8}).cut.depth, most_steps_in_a_pass);
+  EXPECT_EQ(make_cyclic_plan(model, {0, 32, 1 << 20}).cut.halo, Halo::narrow);
   model.threads = 2;
-  EXPECT_EQ(make_cyclic_plan(model).chunks.size(), 2U);
+  EXPECT_EQ(make_cyclic_plan(model).cut.chunks.size(), 2U);
 }
 
 }  // namespace cyclic_cut_test

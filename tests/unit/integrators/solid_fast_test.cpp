@@ -365,7 +365,7 @@ TEST(SolidPlan, LargeWheelsAreWalkedOverTheShorterWay) {
   EXPECT_EQ(ordered.was[0], 0);
   EXPECT_EQ(ordered.was[1], 13);  // the next layer, not the next node of the first
   const SolidPlan plan = make_solid_plan(wide);
-  EXPECT_EQ(plan.strips.front().needs, 3);  // of the next slice: each is a strip of two and one
+  EXPECT_EQ(plan.needs.front(), 3);  // of the next slice: each is a strip of two and one
   const Model high = model_of({.name = "high", .wheel = test::box_wheel(12, 3, 330)});
   EXPECT_EQ(order_sector(high).was[1], 1);
 }

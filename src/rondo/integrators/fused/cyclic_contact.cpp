@@ -8,15 +8,6 @@
 
 namespace rondo::dynamics {
 
-/// Place in ContactModel::nodes of a node of a contact row.
-std::size_t CyclicChunk::candidate_at(int row, int column) const noexcept {
-  const auto contact_row =
-      static_cast<std::size_t>(plan_.contact_row[static_cast<std::size_t>(row)]);
-  const int sector = (range_.first + column + plan_.n_sectors) % plan_.n_sectors;
-  RONDO_ASSERT(contact_row < plan_.candidate.size() && sector >= 0, row, column, sector);
-  return static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
-}
-
 CandidateMotion CyclicChunk::motion_of(CyclicPlace place, int field_u) const noexcept {
   const int c = place.sector - range_.first;
   RONDO_ASSERT(c >= 0 && c < range_.columns, place.sector, range_.first, range_.columns);
@@ -32,7 +23,7 @@ void CyclicChunk::set_motion(CyclicPlace place, int field_u, Vec2 v, Vec2 u) noe
   put(place.row, field_v, c, conj(turn(c)) * v);
   if (plan_.wheel) return;
   put(place.row, field_u, c, conj(turn(c)) * u);
-  if (plan_.halo == Halo::ring) wrap(layout(), place.row, field_u);
+  if (plan_.cut.halo == Halo::ring) wrap(fields(), place.row, field_u);
 }
 
 CandidateMotion CyclicChunk::motion_of(CyclicPlace place) const noexcept {
@@ -41,7 +32,7 @@ CandidateMotion CyclicChunk::motion_of(CyclicPlace place) const noexcept {
 
 void CyclicChunk::move(CyclicPlace place, Vec2 v, Vec2 u) noexcept {
   set_motion(place, field_now(), v, u);
-  if (plan_.halo != Halo::ring && !plan_.wheel) give_edges();
+  if (plan_.cut.halo != Halo::ring && !plan_.wheel) give_edges();
 }
 
 void CyclicChunk::find_touching(const Work& work, int a) noexcept {
@@ -53,8 +44,8 @@ void CyclicChunk::find_touching(const Work& work, int a) noexcept {
                                     .stride = plan_.stride,
                                     .x = row.x,
                                     .y = row.y,
-                                    .turn_x = turn_x_.data() + halo_columns,
-                                    .turn_y = turn_y_.data() + halo_columns,
+                                    .turn_x = turn_x(),
+                                    .turn_y = turn_y(),
                                     .rotation_x = contact.rotation.re,
                                     .rotation_y = contact.rotation.im,
                                     .limit = ground.top() - contact.center.y + margin,
@@ -106,10 +97,7 @@ void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
   ContactReport report;
   const Vec2 after = solve_contacts(*work.step->contact, node, t.touches, active, report);
   // The neighbour reports the contacts of its own nodes.
-  const bool own = t.column >= 0 && t.column < range_.columns;
-  PartialStep* part = own ? &contact_[work.place * range_.n_groups +
-                                      static_cast<std::size_t>(t.column / group_columns)]
-                          : nullptr;
+  PartialStep* part = is_own(t.column) ? &part_of(work.place, t.column) : nullptr;
   take_impulse(work, t, node, after, part ? &part->sums : nullptr);
   if (!part) return;
   part->contact.add(report);

@@ -61,16 +61,7 @@ CyclicIntegrator::~CyclicIntegrator() = default;
 
 CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
                                    const kernels::Table& table, const CyclicTuning& tuning)
-    : CyclicIntegrator(model, start, table, make_cyclic_plan(model, tuning)) {}
-
-CyclicIntegrator::CyclicIntegrator(const Model& model, const State& start,
-                                   const kernels::Table& table, CyclicPlan plan)
-    : BatchIntegrator(model, start, plan.n_groups, plan.chunks.size()), plan_(std::move(plan)) {
-  chunks_.reserve(plan_.chunks.size());
-  for (const CyclicChunkRange& range : plan_.chunks) {
-    chunks_.emplace_back(model_, plan_, table, range);
-    chunks_.back().load(start);
-  }
+    : RingIntegrator(model, start, table, make_cyclic_plan(model, tuning)) {
   add_tails(table);
 }
 
@@ -94,22 +85,11 @@ void CyclicIntegrator::add_tails(const kernels::Table& table) {
   for (CyclicChunk& chunk : chunks_) chunk.show_rows();
 }
 
-/// A thread's chunks are the same in every pass; the others' edges are read only between two
-/// barriers, and written for the pass after.
 void CyclicIntegrator::make_steps(const Batch& batch, Share share) noexcept {
-  const std::size_t n = chunks_.size(), n_steps = batch.steps.size();
-  const auto depth = static_cast<std::size_t>(plan_.depth);
-  for (std::size_t done = 0; done < n_steps; done += depth) {
-    const std::span steps = batch.steps.subspan(done, std::min(depth, n_steps - done));
-    for (std::size_t c = share.first(n); c < share.last(n); ++c) {
-      if (plan_.halo != Halo::ring)
-        chunks_[c].take_halo(chunks_[(c + n - 1) % n], chunks_[(c + 1) % n]);
-      chunks_[c].pass(steps, batch.parts + done * n_parts_, n_parts_,
-                      c == holder_ ? corners_within() : nullptr);
-      if (plan_.halo != Halo::ring && !plan_.stepwise) chunks_[c].give_edges();
-    }
-    wait_for_others(share);
-  }
+  make_passes(batch, share,
+              [&](std::size_t c, std::span<const StepContext> steps, PartialStep* parts) {
+                chunks_[c].pass(steps, parts, n_parts_, c == holder_ ? corners_within() : nullptr);
+              });
 }
 
 void CyclicIntegrator::go_on(const kernels::WheelWay& way, long long /*step*/,
@@ -123,28 +103,12 @@ void CyclicIntegrator::show_changes(Share share) noexcept {
   for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].show_rows();
 }
 
-void CyclicIntegrator::save_displacement(Nodes of, Field& u) const noexcept {
-  for (const CyclicChunk& chunk : chunks_) chunk.save_displacement(of == Nodes::candidates, u);
-}
-
-void CyclicIntegrator::save_velocity(Field& v) const noexcept {
-  for (const CyclicChunk& chunk : chunks_) chunk.save_velocity(v);
-}
-
-void CyclicIntegrator::save_fields(SavedState& saved) const noexcept {
-  for (const CyclicChunk& chunk : chunks_) chunk.save(saved);
-}
-
-void CyclicIntegrator::restore_fields(const SavedState& saved) noexcept {
-  for (CyclicChunk& chunk : chunks_) chunk.restore(saved);
-}
-
 std::size_t CyclicIntegrator::chunk_of(int sector) const noexcept {
   RONDO_ASSERT(sector >= 0 && sector < plan_.n_sectors, sector, plan_.n_sectors);
   const auto after =
-      std::upper_bound(plan_.chunks.begin(), plan_.chunks.end(), sector,
+      std::upper_bound(plan_.cut.chunks.begin(), plan_.cut.chunks.end(), sector,
                        [](int s, const CyclicChunkRange& chunk) { return s < chunk.first; });
-  return static_cast<std::size_t>(after - plan_.chunks.begin()) - 1;
+  return static_cast<std::size_t>(after - plan_.cut.chunks.begin()) - 1;
 }
 
 /// All in one chunk, and out of what its neighbours advance of it.
@@ -152,9 +116,9 @@ bool CyclicIntegrator::hold_within(std::span<const int> candidates) noexcept {
   RONDO_ASSERT(!candidates.empty(), plan_.place.size());
   const auto sector = [&](int candidate) { return plan_.place[at(candidate)].sector; };
   holder_ = chunk_of(sector(candidates.front()));
-  if (plan_.halo == Halo::ring) return true;
-  const CyclicChunkRange& chunk = plan_.chunks[holder_];
-  const int shared = plan_.halo == Halo::wide ? halo_columns : 0;
+  if (plan_.cut.halo == Halo::ring) return true;
+  const CyclicChunkRange& chunk = plan_.cut.chunks[holder_];
+  const int shared = plan_.cut.halo == Halo::wide ? halo_columns : 0;
   return std::all_of(candidates.begin(), candidates.end(), [&](int candidate) {
     const int column = sector(candidate) - chunk.first;
     return column >= shared && column < chunk.columns - shared;
@@ -169,11 +133,6 @@ CandidateMotion CyclicIntegrator::motion_of(std::size_t candidate) const noexcep
 void CyclicIntegrator::move(std::size_t candidate, Vec2 v, Vec2 u) noexcept {
   const CyclicPlace place = plan_.place[candidate];
   chunks_[chunk_of(place.sector)].move(place, v, u);
-}
-
-void CyclicIntegrator::save_active(std::vector<ActiveContact>& active) const noexcept {
-  for (const CyclicChunk& chunk : chunks_)
-    active.insert(active.end(), chunk.active().begin(), chunk.active().end());
 }
 
 }  // namespace rondo::dynamics

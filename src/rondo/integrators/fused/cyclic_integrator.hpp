@@ -6,13 +6,13 @@
 #include <memory>
 #include <vector>
 
-#include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/integrators/fused/cyclic_chunk.hpp"
+#include "rondo/integrators/fused/ring_integrator.hpp"
 #include "rondo/integrators/fused/tail/massless_tail.hpp"
 
 namespace rondo::dynamics {
 
-class CyclicIntegrator : public BatchIntegrator {
+class CyclicIntegrator : public RingIntegrator<CyclicChunk, CyclicPlan> {
  public:
   /// @pre model.sector is there. @throws std::bad_alloc
   CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
@@ -21,25 +21,16 @@ class CyclicIntegrator : public BatchIntegrator {
 
  private:
   class Rows;
-  CyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
-                   CyclicPlan plan);
   NodesInStep rows_of(std::span<const int> nodes);
   void add_tails(const kernels::Table& table);
   void make_steps(const Batch& batch, Share share) noexcept override;
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
   void show_changes(Share share) noexcept override;
-  void save_displacement(Nodes of, Field& u) const noexcept override;
-  void save_velocity(Field& v) const noexcept override;
-  void save_fields(SavedState& saved) const noexcept override;
-  void restore_fields(const SavedState& saved) noexcept override;
-  void save_active(std::vector<ActiveContact>& active) const noexcept override;
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
   void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
   bool hold_within(std::span<const int> candidates) noexcept override;
   [[nodiscard]] std::size_t chunk_of(int sector) const noexcept;
 
-  CyclicPlan plan_;
-  std::vector<CyclicChunk> chunks_;
   std::vector<std::unique_ptr<Rows>> rows_;  ///< rows as the tails see them
   std::size_t holder_ = 0;                   ///< the chunk that has all candidates near corners
 };

@@ -18,31 +18,6 @@ using fem::SectorStiffness;
 
 constexpr int group_columns = kernels::group_packs * kernels::lanes;
 
-std::vector<CyclicChunkRange> cut(int n_sectors, int columns_of_group, int groups, int n_chunks) {
-  std::vector<CyclicChunkRange> chunks;
-  for (int c = 0; c < n_chunks; ++c) {
-    const int from = groups * c / n_chunks, to = groups * (c + 1) / n_chunks;
-    CyclicChunkRange range;
-    range.first = from * columns_of_group;
-    range.columns = std::min(to * columns_of_group, n_sectors) - range.first;
-    range.first_group = static_cast<std::size_t>(from);
-    range.n_groups = static_cast<std::size_t>(to - from);
-    chunks.push_back(range);
-  }
-  return chunks;
-}
-
-void choose_chunks(CyclicPlan& plan, int threads, const CyclicTuning& tuning) {
-  const std::size_t bytes = static_cast<std::size_t>(plan.n_local) *
-                            static_cast<std::size_t>(plan.n_sectors * plan.n_fields()) *
-                            sizeof(double);
-  RingCut ring = cut_ring(plan.n_sectors, group_columns, bytes, plan.stepwise, threads, tuning);
-  plan.n_groups = ring.n_groups;
-  plan.halo = ring.halo;
-  plan.depth = ring.depth;
-  plan.chunks = std::move(ring.chunks);
-}
-
 void add_rows(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
   for (const SectorStiffness::Entry& e : k.entries) {
     RONDO_ASSERT(e.shift >= -1 && e.shift <= 1, e.column, e.shift);
@@ -113,7 +88,7 @@ void add_mirror(const SectorStiffness& k, CyclicPlan& plan) {
 /// A strip reads u of the rows that couple with its own, and overwrites what these read in the step
 /// before: that step must have done them.
 void add_order(const SectorStiffness& k, CyclicPlan& plan) {
-  plan.needs.assign(static_cast<std::size_t>(plan.n_strips()), 0);
+  plan.needs.assign((k.n_local() + kernels::most_rows - 1) / kernels::most_rows, 0);
   for (std::size_t a = 0; a < k.n_local(); ++a)
     for (const SectorStiffness::Entry& e : k.row(a)) {
       int& needed = plan.needs[a / kernels::most_rows];
@@ -121,31 +96,24 @@ void add_order(const SectorStiffness& k, CyclicPlan& plan) {
     }
 }
 
-/// (nodes_per_sector) row of each node of a sector; n_local where it is held.
-std::vector<std::size_t> rows_of(const SectorStiffness& k) {
-  std::vector<std::size_t> row_of(static_cast<std::size_t>(k.nodes_per_sector), k.n_local());
-  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[at(k.nodes[a])] = a;
-  return row_of;
-}
-
 /// The rows tell which of their strip's loads are theirs.
 void add_loads(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
-  const std::vector<std::size_t> row_of = rows_of(k);
-  std::map<std::pair<std::size_t, int>, CyclicLoad> loads;  // by row and load
+  const std::vector<int> row_of = rows_of_nodes(plan);
+  std::map<std::pair<int, int>, CyclicLoad> loads;  // by row and load
   for (const NodalLoad& l : nodal_loads(model)) {
-    const std::size_t a = row_of[at(l.node % k.nodes_per_sector)];
+    const int a = row_of[at(l.node % k.nodes_per_sector)];
     RONDO_ASSERT(l.node / k.nodes_per_sector < k.n_sectors, l.node, k.n_sectors);
-    if (a == k.n_local()) continue;
+    if (a < 0) continue;
     CyclicLoad& on_row = loads[{a, l.load}];
-    on_row.row = static_cast<int>(a);
+    on_row.row = a;
     on_row.load = l.load;
     on_row.force.resize(static_cast<std::size_t>(k.n_sectors));
     const auto sector = static_cast<std::size_t>(l.node / k.nodes_per_sector);
     on_row.force[sector] = conj(k.turn[sector]) * l.force;
   }
   for (auto& [key, load] : loads) {
-    kernels::CyclicRow& row = plan.rows[key.first];
-    const auto strip = static_cast<int>(key.first) / kernels::most_rows;
+    kernels::CyclicRow& row = plan.rows[at(key.first)];
+    const int strip = key.first / kernels::most_rows;
     if (row.n_loads++ == 0)
       row.first_load = static_cast<int>(plan.loads.size() - plan.first_load(strip));
     plan.load_of.push_back(load.load);
@@ -153,25 +121,15 @@ void add_loads(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
   }
 }
 
-void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
-  plan.contact_row.assign(k.n_local(), -1);
-  if (!model.contact) return;
-  const std::vector<std::size_t> row_of = rows_of(k);
-  for (std::size_t i = 0; i < model.contact->nodes.size(); ++i) {
-    const int node = model.contact->nodes[i];
-    const std::size_t a = row_of[at(node % k.nodes_per_sector)];
-    RONDO_DEMAND(a < k.n_local(), node);
-    int& row = plan.contact_row[a];
-    if (row < 0) {
-      row = static_cast<int>(plan.candidate.size());
-      plan.candidate.emplace_back(static_cast<std::size_t>(k.n_sectors), -1);
-    }
-    const int sector = node / k.nodes_per_sector;
-    plan.candidate[at(row)][at(sector)] = static_cast<int>(i);
-    plan.place.push_back({static_cast<int>(a), sector});
-  }
+/// Strips with candidates, and the place of each candidate.
+void add_contact(const Model& model, CyclicPlan& plan) {
+  find_candidates(model, plan);
+  if (model.contact) plan.place.resize(model.contact->nodes.size());
   for (int a = 0; a < plan.n_local; ++a) {
-    if (plan.contact_row[at(a)] < 0) continue;
+    const int row = plan.contact_row[at(a)];
+    if (row < 0) continue;
+    const std::vector<int>& ring = plan.candidate[at(row)];
+    for (int j = 0; j < plan.n_sectors; ++j) plan.place[at(ring[at(j)])] = {a, j};
     const int strip = a / kernels::most_rows;
     if (plan.last_contact_strip < 0) plan.first_contact_strip = strip;
     plan.last_contact_strip = strip;
@@ -179,60 +137,12 @@ void add_contact(const Model& model, const SectorStiffness& k, CyclicPlan& plan)
   if (has_sharp_corners(model))  // these are held after the last one: before, none is read again
     for (int& needed : plan.needs)
       if (needed >= plan.first_contact_strip) needed = std::max(needed, plan.last_contact_strip);
-  for (const std::vector<int>& ring : plan.candidate)  // the same nodes in every sector
-    RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());
 }
 
 }  // namespace
 
 std::size_t n_cyclic_groups(int n_sectors) noexcept {
-  return static_cast<std::size_t>((n_sectors + group_columns - 1) / group_columns);
-}
-
-RingCut cut_ring(int n_sectors, int columns_of_group, std::size_t bytes, bool stepwise, int threads,
-                 const CyclicTuning& tuning) {
-  RONDO_DEMAND(n_sectors > 0 && columns_of_group > 0 && threads >= 1 && tuning.chunk_columns > 0,
-               n_sectors, columns_of_group, threads, tuning.chunk_columns);
-  RingCut ring;
-  const int groups = (n_sectors + columns_of_group - 1) / columns_of_group;
-  ring.n_groups = static_cast<std::size_t>(groups);
-  const bool in_cache = stepwise || bytes < tuning.cache_bytes * static_cast<std::size_t>(threads);
-  const int for_threads = std::min(threads, groups);
-  const int for_cache = in_cache ? 1 : std::max(1, n_sectors / tuning.chunk_columns);
-  const int n_chunks =
-      (std::max(for_threads, for_cache) + for_threads - 1) / for_threads * for_threads;
-  ring.chunks = cut(n_sectors, columns_of_group, groups, std::min(n_chunks, groups));
-  const auto narrowest =
-      std::min_element(ring.chunks.begin(), ring.chunks.end(),
-                       [](const auto& a, const auto& b) { return a.columns < b.columns; });
-  const CyclicChunkRange& last = ring.chunks.back();  // every sector and group in one chunk
-  RONDO_DEMAND(narrowest->columns > 0 && last.first + last.columns == n_sectors &&
-                   last.first_group + last.n_groups == ring.n_groups,
-               narrowest->columns, last.first, last.columns, n_sectors);
-  if (ring.chunks.size() == 1)
-    ring.halo = Halo::ring;
-  else if (stepwise)
-    ring.halo = Halo::narrow;
-  else
-    ring.halo = narrowest->columns >= tuning.wide_halo_columns ? Halo::wide : Halo::narrow;
-  const bool one_by_one = ring.halo == Halo::ring ? in_cache : ring.halo == Halo::narrow;
-  ring.depth = one_by_one ? 1 : most_steps_in_a_pass;
-  RONDO_DEMAND(ring.halo != Halo::wide || narrowest->columns >= halo_columns, narrowest->columns);
-  return ring;
-}
-
-/// Room for the columns of the widest chunk, whole packs, and the halo on both sides. Fields whose
-/// distance is near a multiple of 4096 B would hinder each other in the first cache.
-std::ptrdiff_t cyclic_stride(const std::vector<CyclicChunkRange>& chunks) noexcept {
-  int widest = 0;
-  for (const CyclicChunkRange& chunk : chunks) widest = std::max(widest, chunk.columns);
-  std::ptrdiff_t stride =
-      (widest + 2 * kernels::lanes - 1) / kernels::lanes * kernels::lanes + 2 * halo_columns;
-  constexpr std::ptrdiff_t page = 4096 / sizeof(double), apart = page / 8;
-  static_assert(page % kernels::lanes == 0 && 2 * apart < page);
-  while (stride % page < apart || stride % page > page - apart) stride += kernels::lanes;
-  RONDO_DEMAND(widest > 0 && stride % kernels::lanes == 0, widest, stride);
-  return stride;
+  return n_groups_of(n_sectors, group_columns);
 }
 
 std::size_t CyclicPlan::first_load(int strip) const noexcept {
@@ -251,15 +161,20 @@ CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   CyclicPlan plan;
   plan.n_local = static_cast<int>(k.n_local());
   plan.n_sectors = k.n_sectors;
+  plan.nodes_per_sector = k.nodes_per_sector;
+  plan.nodes = k.nodes;
+  plan.frame.assign(k.n_local(), {1.0, 0.0});
   plan.wheel = model.rim.has_value();
   plan.stepwise = plan.wheel || model.implicit.has_value() || has_massless_contact(model);
   plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;
-  choose_chunks(plan, model.threads, tuning);
-  plan.stride = cyclic_stride(plan.chunks);
+  plan.n_sums = plan.wheel ? int{kernels::n_wheel_sums} : int{kernels::n_sums};
+  plan.group_columns = group_columns;
+  cut_ring(model.threads, most_steps_in_a_pass, tuning, plan);
+  set_stride(plan);
   add_rows(model, k, plan);
   add_mirror(k, plan);
   add_order(k, plan);
-  add_contact(model, k, plan);
+  add_contact(model, plan);
   add_loads(model, k, plan);
   return plan;
 }

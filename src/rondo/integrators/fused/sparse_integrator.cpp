@@ -154,8 +154,8 @@ void SparseIntegrator::load_on_rim(const State& start) {
     const Vec2 u = start.u.plane()[node];
     before[2 * i] = u.x;
     before[2 * i + 1] = u.y;
-    put(motion_.data() + motion_at(i), velocity_on_rim(rim, model_.dt, model_.reference[node] + u,
-                                                       model_.dt * start.v_next.plane()[node]));
+    put(motion_.data() + motion_at(i),
+        rim.velocity_of(model_.reference[node] + u, model_.dt * start.v_next.plane()[node]));
   }
 }
 

@@ -6,8 +6,6 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
-#include "rondo/integrators/general/step_traps.hpp"
-#include "rondo/model/pressure.hpp"
 
 namespace rondo::dynamics {
 
@@ -15,17 +13,10 @@ namespace rondo::dynamics {
 static_assert(ImplicitContact::key_bits >> 62U > static_cast<std::uint64_t>(ContactKind::segment));
 
 GeneralIntegrator::GeneralIntegrator(const Model& model, const State& start)
-    : model_(model),
-      state_(start),
-      internal_(make_internal_force(model, start.u, start.poses)),
-      contact_(model),
-      damping_(model.stiffness_damping > 0.0 ? model.n_nodes() : 0),
-      load_(model.pressures.empty() ? 0 : model.n_nodes()) {
+    : ReadableStep(model, start), forces_(model, start), contact_(model) {
   RONDO_DEMAND(!model.rim && (model.free_bodies.empty() || model.scheme == Scheme::symplectic));
-  RONDO_DEMAND(start.u.size() == model.n_nodes() && start.v_next.size() == model.n_nodes() &&
-                   start.poses.size() == model.free_bodies.size(),
-               start.u.size(), start.v_next.size(), start.poses.size(), model.free_bodies.size());
-  state_.v = Field(model.n_nodes(), 2);
+  RONDO_DEMAND(start.poses.size() == model.free_bodies.size(), start.poses.size(),
+               model.free_bodies.size());
   take_poses();
   if (model.implicit) set_implicit();
   if (!has_massless_contact(model)) return;
@@ -47,9 +38,9 @@ void GeneralIntegrator::set_implicit() {
 }
 
 void GeneralIntegrator::take_poses() noexcept {
-  RONDO_ASSERT(internal_->poses().size() == state_.poses.size(), internal_->poses().size(),
-               state_.poses.size());
-  std::copy(internal_->poses().begin(), internal_->poses().end(), state_.poses.begin());
+  const std::span<const Pose> poses = forces_.poses();
+  RONDO_ASSERT(poses.size() == state_.poses.size(), poses.size(), state_.poses.size());
+  std::ranges::copy(poses, state_.poses.begin());
 }
 
 /// u_{n+1}, and ½ vᵀ M v before it.
@@ -63,12 +54,9 @@ void GeneralIntegrator::move(double& kinetic) noexcept {
 
 /// Forces at u_{n+1} and the frame of this step; the strain energy of the half step before.
 void GeneralIntegrator::find_forces(double& strain) noexcept {
-  internal_->evaluate(state_.u);
-  take_poses();
-  strain = internal_->half_step_energy(state_.u, state_.v);
-  if (!damping_.empty()) internal_->damping(damping_);
   state_.frame = frame_step(model_.motion, state_.step, model_.dt);
-  if (!load_.empty()) pressure_forces(model_, state_.u, state_.frame.time, load_);
+  strain = forces_.evaluate(state_.u, state_.v, state_.frame.time);
+  take_poses();
 }
 
 /// In the order of the candidates; the two of a node one after the other.
@@ -112,14 +100,11 @@ ContactReport GeneralIntegrator::solve_contacts(const BodyFrames& frames,
 /// v⁺ = v⁻ + [Δt f/m - drag v⁻]/a, without contact (3.4).
 void GeneralIntegrator::free_velocities(const BodyFrames& frames) noexcept {
   const double dt = model_.dt;
-  const std::span<const Vec2> gradient = internal_->gradient();
   const std::span u = state_.u.plane(), v = state_.v.plane(), v_next = state_.v_next.plane();
   for_free_nodes(model_, [&](std::size_t k) {
     if (model_.mass[k] == 0.0) return;  // of the ring
     const BodyFrame& f = frames.of(model_, k);
-    Vec2 force = -gradient[k];
-    if (!damping_.empty()) force -= damping_[k];
-    if (!load_.empty()) force += load_[k];
+    const Vec2 force = -forces_.gradient(k) - forces_.damping(k) + forces_.load(k);
     const Vec2 acceleration =
         force / model_.mass[k] - frame_acceleration(f.frame, model_.reference[k] + u[k]);
     v_next[k] = v[k] + (dt * acceleration - f.update.drag * v[k]) / f.update.a;
@@ -157,8 +142,8 @@ void GeneralIntegrator::add_works(const BodyFrames& frames, Works& w) const noex
     const Vec2 taken = velocity_of_terms(model_.scheme, v[k], mean);
     w.frame -= dt * m * dot(mean, frame_acceleration(frame, model_.reference[k] + u[k]));
     w.dissipation_mass += dt * model_.mass_damping * m * dot(mean, taken);
-    if (!damping_.empty()) w.dissipation_stiffness += dt * dot(mean, damping_[k]);
-    if (!load_.empty()) w.load += dt * dot(mean, load_[k]);
+    w.dissipation_stiffness += dt * dot(mean, forces_.damping(k));
+    w.load += dt * dot(mean, forces_.load(k));
     w.scheme -= 2.0 * dt * frame.spin * m * dot(mean, turn90(taken));
   });
 }
@@ -173,17 +158,12 @@ void GeneralIntegrator::report_frame(StepReport& report) const noexcept {
   report.frame.angle = state_.poses.front().angle;
 }
 
-StepReport GeneralIntegrator::step() noexcept {
-  const StepTraps traps;
+void GeneralIntegrator::make_step(StepEnergy& energy, StepReport& report) noexcept {
   std::swap(state_.v, state_.v_next);
-  ++state_.step;
-  StepEnergy energy;
   move(energy.kinetic);
   find_forces(energy.strain);
   const BodyFrames frames(model_, state_.frame);
   free_velocities(frames);
-  StepReport report;
-  report.step = state_.step;
   report_frame(report);
   ContactReport on_implicit;  // before the ring, which follows what is around it
   if (implicit_) correct_implicit(frames, energy, on_implicit);
@@ -191,31 +171,7 @@ StepReport GeneralIntegrator::step() noexcept {
   report.contact.add(on_implicit);
   add_works(frames, energy.works);
   set_contact_works(report.contact, energy.works);
-  ledger_.add(energy);
-  report.balance = ledger_.last();
-  report.material = internal_->material();
-  return report;
-}
-
-void GeneralIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {
-  RONDO_DEMAND(!reports.empty());
-  for (StepReport& report : reports) report = step();
-  if (!last) return;
-  last->step = state_.step;
-  last->frame = state_.frame;
-  last->u = state_.u;
-  if (!last->v.empty()) last->v = state_.v;
-  if (!last->v_next.empty()) last->v_next = state_.v_next;
-  last->poses = state_.poses;
-  last->active = state_.active;
-}
-
-void GeneralIntegrator::fields(State& state) const noexcept {
-  state.u = state_.u;
-  const std::span u = state.u.plane();
-  const std::span v_next = state_.v_next.plane();
-  for_free_nodes(model_, [&](std::size_t k) { u[k] += model_.dt * v_next[k]; });
-  state.v_next = state_.v_next;
+  report.material = forces_.material();
 }
 
 std::vector<contact::ProblemFile> GeneralIntegrator::take_difficult() {
@@ -227,33 +183,23 @@ std::vector<contact::ProblemFile> GeneralIntegrator::take_difficult() {
   return problems;
 }
 
-SavedState GeneralIntegrator::save() const {
-  SavedState saved;
-  saved.step = state_.step;
-  saved.u = state_.u;
-  saved.v = state_.v_next;
-  internal_->save(saved);
+void GeneralIntegrator::save_fields(SavedState& saved) const {
+  ReadableStep::save_fields(saved);
+  forces_.save(saved);
   saved.impulses = contact_.coupled().kept;
   if (ring_) saved.ring = ring_->save();
   if (implicit_ && implicit_->contact())
     for (const auto& impulse : implicit_->contact()->coupled().kept)
       saved.impulses.push_back(impulse);
-  saved.ledger = ledger_.save();
-  return saved;
 }
 
-void GeneralIntegrator::restore(const SavedState& saved) {
-  RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes(),
-               saved.u.size(), saved.v.size());
-  state_.step = saved.step;
-  state_.u = saved.u;
-  state_.v_next = saved.v;
-  internal_->restore(saved);
+void GeneralIntegrator::restore_fields(const SavedState& saved) {
+  ReadableStep::restore_fields(saved);
+  forces_.restore(saved);
   take_poses();
   contact_.coupled().kept = saved.impulses;
   if (ring_) ring_->restore(saved.ring);
   if (implicit_ && implicit_->contact()) implicit_->contact()->coupled().kept = saved.impulses;
-  ledger_.restore(saved.ledger);
 }
 
 }  // namespace rondo::dynamics

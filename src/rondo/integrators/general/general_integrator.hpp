@@ -12,27 +12,24 @@
 
 #include "rondo/integrators/general/body_frames.hpp"
 #include "rondo/integrators/general/general_contact.hpp"
+#include "rondo/integrators/general/plane_forces.hpp"
+#include "rondo/integrators/general/readable_step.hpp"
 #include "rondo/integrators/implicit/implicit_elements.hpp"
 #include "rondo/integrators/massless/ring_contact.hpp"
-#include "rondo/model/integrator.hpp"
-#include "rondo/model/internal_force.hpp"
 
 namespace rondo::dynamics {
 
-class GeneralIntegrator final : public Integrator, public Resumable {
+class GeneralIntegrator final : public ReadableStep {
  public:
   /// @pre the assembled stiffness is there, no loaded rim; scheme "symplectic" if a body is free.
   GeneralIntegrator(const Model& model, const State& start);
 
-  void advance(std::span<StepReport> reports, State* last = nullptr) noexcept override;
-  void fields(State& state) const noexcept override;
-  [[nodiscard]] Resumable* resumable() noexcept override { return this; }
-  [[nodiscard]] SavedState save() const override;
-  void restore(const SavedState& saved) override;
   [[nodiscard]] std::vector<contact::ProblemFile> take_difficult() override;
 
  private:
-  StepReport step() noexcept;
+  void make_step(StepEnergy& energy, StepReport& report) noexcept override;
+  void save_fields(SavedState& saved) const override;
+  void restore_fields(const SavedState& saved) override;
   void set_implicit();
   void move(double& kinetic) noexcept;
   void take_poses() noexcept;
@@ -45,16 +42,11 @@ class GeneralIntegrator final : public Integrator, public Resumable {
   void add_active(std::span<const ActiveContact> more);
   void report_frame(StepReport& report) const noexcept;
 
-  const Model& model_;
-  State state_;
-  Ledger ledger_;
-  const std::unique_ptr<InternalForce> internal_;
+  PlaneForces forces_;
   GeneralContact contact_;
   std::optional<MasslessContact> ring_;  ///< instead of contact_, where contact nodes have no mass
   std::unique_ptr<ImplicitElements> implicit_;  ///< null: there are none
   PlaneField implicit_velocity_;                ///< velocities of their nodes           [m/s]
-  std::vector<Vec2> damping_;  ///< (n) β of the force, in the nodes' frames; empty: β = 0 [N/m]
-  std::vector<Vec2> load_;     ///< (n) forces of pressures; empty: none                 [N/m]
 };
 
 }  // namespace rondo::dynamics

@@ -14,12 +14,9 @@ class SolidContacts {
  public:
   explicit SolidContacts(const Model& model);
 
-  /// Solves what touches at u_{n+1}. @param v v_{n+1/2}
-  /// @param next v_{n+3/2} without contact, becomes that with it
-  ContactReport solve(const SolidContactStep& step, std::span<const Vec3> u,
-                      std::span<const Vec3> v, std::span<Vec3> next) noexcept;
-  /// Contacts of the last step, in the order of the candidates.
-  [[nodiscard]] const std::vector<ActiveContact>& active() const noexcept { return active_; }
+  /// Solves what touches at u_{n+1}: v_next of `state`, without contact, becomes that with it, and
+  /// `active` the contacts in the order of the candidates.
+  ContactReport solve(const SolidContactStep& step, State& state) noexcept;
 
   /// What the next step asks a friction law with: empty where friction is a constant.
   [[nodiscard]] const contact::KeptImpulses& impulses() const noexcept { return kept_; }
@@ -27,7 +24,6 @@ class SolidContacts {
 
  private:
   const Model& model_;
-  std::vector<ActiveContact> active_;
   contact::KeptImpulses kept_, before_;  ///< of the last step, and of that before
 };
 

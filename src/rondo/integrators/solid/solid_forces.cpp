@@ -9,19 +9,22 @@
 
 namespace rondo::dynamics {
 
-SolidForces::SolidForces(const Model& model, std::span<const Vec3> u)
+SolidForces::SolidForces(const Model& model, const State& start)
     : model_(model), now_(model.n_nodes()), before_(model.n_nodes()) {
   RONDO_DEMAND(model.solid && model.solid->axial.size() == model.n_nodes());
-  RONDO_DEMAND(u.size() == model.n_nodes(), u.size(), model.n_nodes());
   if (!model.solid->pressures.empty()) load_.resize(model.n_nodes());
-  fem::apply(model.solid->sector, u, now_);
+  fem::apply(model.solid->sector, start.u, now_);
 }
 
-void SolidForces::evaluate(std::span<const Vec3> u, double time) noexcept {
+double SolidForces::evaluate(std::span<const Vec3> u, std::span<const Vec3> /*v*/,
+                             double time) noexcept {
   RONDO_ASSERT(u.size() == now_.size(), u.size(), now_.size());
   std::swap(now_, before_);
   fem::apply(model_.solid->sector, u, now_);
   if (!load_.empty()) solid_pressure_forces(model_, time, load_);
+  double energy = 0.0;
+  for_free_nodes(model_, [&](std::size_t k) { energy += 0.5 * dot(u[k], before_[k]); });
+  return energy;
 }
 
 void solid_pressure_forces(const Model& model, double time, std::span<Vec3> load) noexcept {

@@ -7,20 +7,18 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/vec3.hpp"
-#include "rondo/model/model.hpp"
+#include "rondo/model/loaded_rim.hpp"
 
 namespace rondo::dynamics {
 
 class SolidForces {
  public:
-  /// The model must outlive it. @param u u_n: evaluate() begins with u_{n+1}
-  SolidForces(const Model& model, std::span<const Vec3> u);
+  /// The model must outlive it. @param start u_0: evaluate() begins with u_1
+  SolidForces(const Model& model, const State& start);
 
-  /// K u_{n+1}; what was there becomes K u_n.
-  void evaluate(std::span<const Vec3> u, double time) noexcept;
+  /// Forces at u_{n+1}. @return strain energy of the half step before, ½ u_{n+1}ᵀ K u_n   [J]
+  double evaluate(std::span<const Vec3> u, std::span<const Vec3> v, double time) noexcept;
   [[nodiscard]] Vec3 gradient(std::size_t k) const noexcept { return now_[k]; }
-  /// K u_n.
-  [[nodiscard]] Vec3 gradient_before(std::size_t k) const noexcept { return before_[k]; }
   /// β (K u_{n+1} - K u_n)/Δt.
   [[nodiscard]] Vec3 damping(std::size_t k) const noexcept {
     return model_.stiffness_damping / model_.dt * (now_[k] - before_[k]);
@@ -30,11 +28,15 @@ class SolidForces {
     return load_.empty() ? Vec3{} : load_[k];
   }
 
-  /// K u_{n+1}: what another one goes on with.
-  [[nodiscard]] const std::vector<Vec3>& saved() const noexcept { return now_; }
-  void restore(std::span<const Vec3> saved) {
-    RONDO_DEMAND(saved.size() == model_.n_nodes(), saved.size(), model_.n_nodes());
-    now_.assign(saved.begin(), saved.end());
+  /// Action of the pressures on the rim, by the clamped nodes. They act on undeformed faces, so
+  /// that their forces round the axle cancel; along the axle nothing moves the rim but its tables.
+  [[nodiscard]] RimForceOf<Vec3> on_rim() const noexcept { return {}; }
+  [[nodiscard]] MaterialReport material() const noexcept { return {}; }
+
+  void save(SavedState& saved) const { saved.force = now_; }
+  void restore(const SavedState& saved) {
+    RONDO_DEMAND(saved.force.size() == model_.n_nodes(), saved.force.size(), model_.n_nodes());
+    now_ = to_vector(saved.force.space());
   }
 
  private:

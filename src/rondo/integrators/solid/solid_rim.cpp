@@ -18,13 +18,18 @@ double SolidRim::lateral_rate(double t) const noexcept {
   return model_.motion.advance(t, model_.dt).z / model_.dt;
 }
 
-/// The force on the rim in the directions in which it may move.
-RimForce SolidRim::in_plane(Vec3 force, double moment) const noexcept {
-  return {conj(rim_.frame().rotation) * ground_.from_wheel(force).plane(), moment};
+/// From the co-rotating frame to (t1, n, t2).
+Vec3 SolidRim::on_ground(Vec3 force) const noexcept {
+  return ground_.from_wheel(rim_.frame().rotation * force);
 }
 
-void SolidRim::start(Vec3 force, double moment) noexcept {
-  rim_.start(in_plane(force, moment));
+/// The force on the rim in the directions in which it may move.
+RimForce SolidRim::in_plane(const RimForceOf<Vec3>& q) const noexcept {
+  return {conj(rim_.frame().rotation) * on_ground(q.force).plane(), q.moment};
+}
+
+void SolidRim::start(const RimForceOf<Vec3>& q) noexcept {
+  rim_.start(in_plane(q));
   lateral_ = lateral_rate(0.0);
 }
 
@@ -37,9 +42,9 @@ void SolidRim::move() noexcept {
   frame_.advance_before.z = model_.dt * lateral_before_;
 }
 
-void SolidRim::take(Vec3 force, double moment) noexcept {
-  rim_.take(in_plane(force, moment));
-  lateral_force_ = ground_.from_wheel(force).z;
+void SolidRim::take(const RimForceOf<Vec3>& q) noexcept {
+  rim_.take(in_plane(q));
+  lateral_force_ = on_ground(q.force).z;
   lateral_ = lateral_rate(frame_.time);
   FrameStep frame = rim_.frame();
   frame.slip_angle = frame_.slip_angle;
@@ -61,6 +66,10 @@ StepEnergy SolidRim::energy() const noexcept {
   StepEnergy energy = rim_.energy();
   energy.works.held -= 0.5 * model_.dt * lateral_force_ * (lateral_before_ + lateral_);
   return energy;
+}
+
+Vec3 SolidRim::gravity() const noexcept {
+  return conj(frame_.rotation) * ground_.to_wheel(model_.motion.gravity_at(frame_.time));
 }
 
 Vec3 SolidRim::travel(Vec3 arm, Vec3 velocity) const noexcept {

@@ -13,11 +13,11 @@ class SolidRim {
   /// The model must outlive it. @pre model.rim
   explicit SolidRim(const Model& model) noexcept;
 
-  /// @param force Σ q of the nodes, axes of the wheel [N]
-  /// @param moment about the axle [N·m]
-  void start(Vec3 force, double moment) noexcept;
+  // As those of LoadedRim. Forces are along the axes of the co-rotating frame and the axle.
+  void start(const RimForceOf<Vec3>& q) noexcept;
   void move() noexcept;
-  void take(Vec3 force, double moment) noexcept;
+  void take(const RimForceOf<Vec3>& q) noexcept;
+  [[nodiscard]] Vec3 gravity() const noexcept;
 
   /// With its lateral numbers.
   [[nodiscard]] const FrameStep& frame() const noexcept { return frame_; }
@@ -28,7 +28,6 @@ class SolidRim {
   /// Works along t2 among those that hold the rim.
   [[nodiscard]] StepEnergy energy() const noexcept;
 
-  /// As travel_on_rim() and velocity_on_rim().
   [[nodiscard]] Vec3 travel(Vec3 arm, Vec3 velocity) const noexcept;
   [[nodiscard]] Vec3 velocity_of(Vec3 arm, Vec3 travel) const noexcept;
 
@@ -36,7 +35,8 @@ class SolidRim {
   void restore(long long step, std::span<const double> saved);
 
  private:
-  [[nodiscard]] RimForce in_plane(Vec3 force, double moment) const noexcept;
+  [[nodiscard]] Vec3 on_ground(Vec3 force) const noexcept;
+  [[nodiscard]] RimForce in_plane(const RimForceOf<Vec3>& q) const noexcept;
   /// Lateral velocity of the half step from t on [m/s].
   [[nodiscard]] double lateral_rate(double t) const noexcept;
 

@@ -45,13 +45,12 @@ void start_wheel(const Model& model, std::span<const Vec3> load, State& state) {
   const auto force = [&](std::size_t k) {
     return elastic_force(model, state, k) + model.mass_damping * model.mass[k] * state.v.space()[k];
   };
-  Vec3 sum;
-  double moment = 0.0;
+  RimForceOf<Vec3> sum;
   for_free_nodes(model, [&](std::size_t k) {
-    sum += force(k);
-    moment += cross(arm_of(model, state, k).plane(), force(k).plane());
+    sum.force += force(k);
+    sum.moment += cross(arm_of(model, state, k).plane(), force(k).plane());
   });
-  rim.start(sum, moment);
+  rim.start(sum);
   state.rim = rim.save();
   for_free_nodes(model, [&](std::size_t k) {
     const Vec3 arm = arm_of(model, state, k);

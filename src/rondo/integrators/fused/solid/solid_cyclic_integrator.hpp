@@ -2,35 +2,23 @@
 /// @file  Fast step of a wheel in three dimensions whose rim follows its tables: what
 /// cyclic_integrator.hpp is in the plane, with three components.
 #pragma once
-#include <vector>
-
-#include "rondo/integrators/fused/batch_integrator.hpp"
+#include "rondo/integrators/fused/ring_integrator.hpp"
 #include "rondo/integrators/fused/solid/solid_chunk.hpp"
 
 namespace rondo::dynamics {
 
-class SolidCyclicIntegrator final : public BatchIntegrator {
+class SolidCyclicIntegrator final : public RingIntegrator<SolidChunk, SolidPlan> {
  public:
   /// @pre model.solid, no loaded rim, the scheme "symplectic"
   SolidCyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
                         const SolidTuning& tuning = {});
 
  private:
-  SolidCyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
-                        SolidPlan plan);
   void make_steps(const Batch& batch, Share share) noexcept override;
-  void save_displacement(Nodes of, Field& u) const noexcept override;
-  void save_velocity(Field& v) const noexcept override;
-  void save_fields(SavedState& saved) const noexcept override;
-  void restore_fields(const SavedState& saved) noexcept override;
-  void save_active(std::vector<ActiveContact>& active) const noexcept override;
   // These do nothing: three dimensions have no loaded rims and no corners between two nodes here.
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
   void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
-
-  const SolidPlan plan_;
-  std::vector<SolidChunk> chunks_;
 };
 
 }  // namespace rondo::dynamics

@@ -99,33 +99,32 @@ void add_order(SolidPlan& plan) {
   for (std::size_t i = 0; i < plan.strips.size(); ++i)
     for (int row = plan.strips[i].first; row < plan.strips[i].first + plan.strips[i].n_rows; ++row)
       strip_of[at(row)] = static_cast<int>(i);
-  for (SolidPlanStrip& strip : plan.strips)
-    for (int row = strip.first; row < strip.first + strip.n_rows; ++row)
-      for (const SolidBlock& b : plan.stiffness.blocks[at(row)])
-        strip.needs = std::max(strip.needs, strip_of[at(b.row)]);
+  plan.needs.assign(plan.strips.size(), 0);
+  for (std::size_t row = 0; row < strip_of.size(); ++row) {
+    int& needed = plan.needs[at(strip_of[row])];
+    for (const SolidBlock& b : plan.stiffness.blocks[row])
+      needed = std::max(needed, strip_of[at(b.row)]);
+  }
 }
 
 /// Rows that the steps of a pass are apart.
 int rows_between_steps(const SolidPlan& plan) {
   int most = 0;
-  for (const SolidPlanStrip& strip : plan.strips) {
-    const SolidPlanStrip& needed = plan.strips[at(strip.needs)];
-    most = std::max(most, needed.first + needed.n_rows - strip.first);
+  for (std::size_t i = 0; i < plan.strips.size(); ++i) {
+    const SolidPlanStrip& needed = plan.strips[at(plan.needs[i])];
+    most = std::max(most, needed.first + needed.n_rows - plan.strips[i].first);
   }
   return most;
 }
 
 void cut(const Model& model, const SolidTuning& tuning, SolidPlan& plan) {
   const std::size_t row_bytes = static_cast<std::size_t>(plan.n_fields()) * sizeof(double);
-  const std::size_t bytes =
-      static_cast<std::size_t>(plan.n_local) * static_cast<std::size_t>(plan.n_sectors) * row_bytes;
   const std::size_t in_hand =
       solid_steps_in_a_pass * static_cast<std::size_t>(rows_between_steps(plan) + 1) * row_bytes;
   const int columns =
       std::max(tuning.fewest_columns, static_cast<int>(tuning.pass_bytes / in_hand));
-  plan.cut = cut_ring(plan.n_sectors, solid_group_columns, bytes, false, model.threads,
-                      {tuning.cache_bytes, columns, tuning.wide_halo_columns});
-  if (plan.cut.depth > 1) plan.cut.depth = solid_steps_in_a_pass;
+  cut_ring(model.threads, solid_steps_in_a_pass,
+           {tuning.cache_bytes, columns, tuning.wide_halo_columns}, plan);
 }
 
 void add_rows(const Model& model, SolidPlan& plan) {
@@ -146,27 +145,6 @@ void add_rows(const Model& model, SolidPlan& plan) {
   }
 }
 
-void add_contact(const Model& model, SolidPlan& plan) {
-  const SolidSector& k = plan.ordered.sector;
-  plan.contact_row.assign(k.n_local(), -1);
-  if (!model.contact) return;
-  std::vector<int> row_of(static_cast<std::size_t>(k.nodes_per_sector), -1);
-  for (std::size_t a = 0; a < k.n_local(); ++a) row_of[at(k.nodes[a])] = static_cast<int>(a);
-  for (std::size_t i = 0; i < model.contact->nodes.size(); ++i) {
-    const int node = model.contact->nodes[i];
-    const int a = row_of[at(node % k.nodes_per_sector)];
-    RONDO_DEMAND(a >= 0, node);
-    int& row = plan.contact_row[at(a)];
-    if (row < 0) {
-      row = static_cast<int>(plan.candidate.size());
-      plan.candidate.emplace_back(static_cast<std::size_t>(k.n_sectors), -1);
-    }
-    plan.candidate[at(row)][at(node / k.nodes_per_sector)] = static_cast<int>(i);
-  }
-  for (const std::vector<int>& ring : plan.candidate)  // the same nodes in every sector
-    RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());
-}
-
 void add_loads(const Model& model, SolidPlan& plan) {
   for (const SolidPressure& pressure : model.solid->pressures) {
     RONDO_DEMAND(pressure.force.size() == plan.rows.size(), pressure.force.size());
@@ -179,7 +157,7 @@ void add_loads(const Model& model, SolidPlan& plan) {
 }  // namespace
 
 std::size_t n_solid_groups(int n_sectors) noexcept {
-  return static_cast<std::size_t>((n_sectors + solid_group_columns - 1) / solid_group_columns);
+  return n_groups_of(n_sectors, solid_group_columns);
 }
 
 SolidPlan make_solid_plan(const Model& model, const SolidTuning& tuning) {
@@ -187,19 +165,25 @@ SolidPlan make_solid_plan(const Model& model, const SolidTuning& tuning) {
   SolidPlan plan;
   plan.n_local = static_cast<int>(model.solid->sector.n_local());
   plan.n_sectors = model.solid->sector.n_sectors;
+  plan.components = 3;
   plan.keeps_force = model.stiffness_damping > 0.0;
+  plan.n_sums = kernels::n_sums;
+  plan.group_columns = solid_group_columns;
   plan.ordered = order_sector(model);
+  plan.nodes_per_sector = plan.ordered.sector.nodes_per_sector;
+  plan.nodes = plan.ordered.sector.nodes;
   plan.stiffness = solid_stiffness(model, plan.ordered.sector);
+  plan.frame = plan.stiffness.frame;
   const auto n_free =
       static_cast<std::size_t>(plan.n_local) * static_cast<std::size_t>(plan.n_sectors);
   RONDO_DEMAND(n_free == model.free.size(), plan.n_local, plan.n_sectors, model.free.size());
   find_strips(plan);
   add_order(plan);
   cut(model, tuning, plan);
-  plan.stride = cyclic_stride(plan.cut.chunks);
+  set_stride(plan);
   add_rows(model, plan);
   write_strips(plan);
-  add_contact(model, plan);
+  find_candidates(model, plan);
   add_loads(model, plan);
   return plan;
 }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  How the cyclic operator lays out a wheel in three dimensions and walks over it: as
-/// cyclic_plan.hpp has a disk, with three components, and strips of rows that couple with the same
-/// nodes (docs/performance.md).
+/// @file  How the cyclic operator lays out a wheel in three dimensions (ring_layout.hpp) and walks
+/// over it: in strips of rows that couple with the same nodes (docs/performance.md).
 #pragma once
 #include <cstddef>
 #include <vector>
 
-#include "rondo/integrators/fused/cyclic_plan.hpp"
+#include "rondo/integrators/fused/ring_layout.hpp"
 #include "rondo/integrators/fused/solid/solid_order.hpp"
 #include "rondo/integrators/fused/solid/solid_rows.hpp"
 
@@ -19,30 +18,17 @@ struct SolidPlanStrip {
   kernels::SolidKind kind = kernels::SolidKind::general;
   std::size_t first_entry = 0, n_entries = 0;
   std::size_t first_block = 0;  ///< in SolidPlan::numbers
-  int needs = 0;                ///< strip that the step before must have done before this one
 };
 
-struct SolidPlan {
-  int n_local = 0, n_sectors = 0;
-  bool keeps_force = false;   ///< K u_n is a field: β > 0
-  std::ptrdiff_t stride = 0;  ///< doubles between the fields of a row
+struct SolidPlan : RingLayout {
   OrderedSector ordered;
   SolidStiffness stiffness;
   std::vector<kernels::SolidRow> rows;  ///< (n_local)
   std::vector<kernels::SolidEntry> entries;
   std::vector<double> numbers;  ///< blocks of the entries, strip by strip
   std::vector<SolidPlanStrip> strips;
-  std::vector<int> contact_row;             ///< (n_local) place in `candidate`; -1: no candidates
-  std::vector<std::vector<int>> candidate;  ///< (contact rows, N) place in ContactModel::nodes
   /// (pressures, n_local) force per pressure of each row, in its frame; nothing: no pressure  [m²]
   std::vector<std::vector<Vec3>> loads;
-  RingCut cut;
-
-  [[nodiscard]] int n_fields() const noexcept { return keeps_force ? 12 : 9; }
-  [[nodiscard]] std::ptrdiff_t row_size() const noexcept { return n_fields() * stride; }
-  [[nodiscard]] std::size_t chunk_size() const noexcept {
-    return static_cast<std::size_t>(CyclicPlan::lead + n_local * row_size() + halo_columns);
-  }
 };
 
 /// More than of a disk: a wheel has more rows between two steps of a pass, and more bytes a node.

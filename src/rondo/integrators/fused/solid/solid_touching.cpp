@@ -8,15 +8,6 @@
 
 namespace rondo::dynamics {
 
-/// Place in ContactModel::nodes of a node of a contact row.
-std::size_t SolidChunk::candidate_at(int row, int column) const noexcept {
-  const auto contact_row =
-      static_cast<std::size_t>(plan_.contact_row[static_cast<std::size_t>(row)]);
-  const int sector = (range_.first + column + plan_.n_sectors) % plan_.n_sectors;
-  RONDO_ASSERT(contact_row < plan_.candidate.size() && sector >= 0, row, column, sector);
-  return static_cast<std::size_t>(plan_.candidate[contact_row][static_cast<std::size_t>(sector)]);
-}
-
 void SolidChunk::find_touching(const Work& work, int row) noexcept {
   const kernels::SolidRow& r = plan_.rows[static_cast<std::size_t>(row)];
   const SolidContactStep& contact = *work.step->solid_contact;
@@ -29,8 +20,8 @@ void SolidChunk::find_touching(const Work& work, int row) noexcept {
                                     .x = r.x,
                                     .y = r.y,
                                     .z = r.z,
-                                    .turn_x = turn_x_.data() + halo_columns,
-                                    .turn_y = turn_y_.data() + halo_columns,
+                                    .turn_x = turn_x(),
+                                    .turn_y = turn_y(),
                                     .rotation_x = rotation.re,
                                     .rotation_y = rotation.im,
                                     .normal_y = normal.y,
@@ -83,9 +74,8 @@ void SolidChunk::solve_node(const Work& work, const Touching& t) noexcept {
   put(t.row, field_v, t.column, after);
   put(t.row, work.next, t.column, u + model_.dt * after);
   // The neighbour reports the contacts of its own nodes.
-  if (t.column < 0 || t.column >= range_.columns) return;
-  PartialStep& part = contact_[work.place * range_.n_groups +
-                               static_cast<std::size_t>(t.column / solid_group_columns)];
+  if (!is_own(t.column)) return;
+  PartialStep& part = part_of(work.place, t.column);
   correct_sums(work, t, free, after, part.sums);
   part.contact.add(report);
   if (work.last) active_.insert(active_.end(), active.begin(), active.end());
