@@ -163,7 +163,6 @@ CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   plan.n_sectors = k.n_sectors;
   plan.nodes_per_sector = k.nodes_per_sector;
   plan.nodes = k.nodes;
-  plan.frame.assign(k.n_local(), {1.0, 0.0});
   plan.wheel = model.rim.has_value();
   plan.stepwise = plan.wheel || model.implicit.has_value() || has_massless_contact(model);
   plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;

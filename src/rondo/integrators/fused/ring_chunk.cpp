@@ -18,7 +18,7 @@ RingChunk<C>::RingChunk(const Model& model, const RingLayout& layout, const Cycl
                    range.columns <= columns && range.n_groups > 0,
                range.first, range.columns, n, columns, range.n_groups);
   RONDO_DEMAND(turn.size() == static_cast<std::size_t>(n) && layout.components == C &&
-                   layout.frame.size() == static_cast<std::size_t>(layout.n_local),
+                   (C == 2 || layout.frame.size() == static_cast<std::size_t>(layout.n_local)),
                turn.size(), n, layout.components, layout.frame.size(), layout.n_local);
   for (int c = -halo_columns; c < columns + halo_columns; ++c) {
     const Complex axes = turn[static_cast<std::size_t>(((range.first + c) % n + n) % n)];
@@ -65,17 +65,19 @@ void RingChunk<C>::restore(const SavedState& saved) noexcept {
 
 template <int C>
 void RingChunk<C>::save_displacement(bool candidates, std::span<Vec> u) const noexcept {
-  for_own_nodes(
-      [&](int a, int c, std::size_t node) { u[node] = frame(a, c) * at(a, field_now(), c); },
-      candidates);
+  const int now = field_now();
+  for_own_nodes([&](int a, int c, std::size_t node) { u[node] = frame(a, c) * at(a, now, c); },
+                candidates);
 }
 
 template <int C>
 void RingChunk<C>::save_velocity(std::span<Vec> v) const noexcept {
+  if (!layout_.wheel)
+    return for_own_nodes(
+        [&](int a, int c, std::size_t node) { v[node] = frame(a, c) * at(a, field_v, c); });
+  const int now = field_now(), before = field_next();
   for_own_nodes([&](int a, int c, std::size_t node) {
-    v[node] = layout_.wheel
-                  ? frame(a, c) * (at(a, field_now(), c) - at(a, field_next(), c)) / model_.dt
-                  : frame(a, c) * at(a, field_v, c);
+    v[node] = frame(a, c) * (at(a, now, c) - at(a, before, c)) / model_.dt;
   });
 }
 

@@ -65,8 +65,7 @@ class RingChunk {
     Vec force;
   };
 
-  /// @param turn (N) axes of the sectors
-  /// @param node number of a node in the body, by row and sector
+  /// @param turn (N) axes of the sectors. @param strip_rows rows that are worked on together
   RingChunk(const Model& model, const RingLayout& layout, const CyclicChunkRange& range,
             std::span<const Complex> turn, std::size_t strip_rows);
   ~RingChunk() = default;
@@ -123,7 +122,10 @@ class RingChunk {
     return {turn_x_[c], turn_y_[c]};
   }
   [[nodiscard]] Complex frame(int row, int column) const noexcept {
-    return turn(column) * layout_.frame[static_cast<std::size_t>(row)];
+    if constexpr (C == 2)  // the axes of its sector
+      return turn(column);
+    else
+      return turn(column) * layout_.frame[static_cast<std::size_t>(row)];
   }
   [[nodiscard]] const double* turn_x() const noexcept { return turn_x_.data() + halo_columns; }
   [[nodiscard]] const double* turn_y() const noexcept { return turn_y_.data() + halo_columns; }
@@ -177,9 +179,11 @@ class RingChunk {
 template <int C>
 template <class Visit>
 void RingChunk<C>::for_own_nodes(Visit&& visit, bool candidates) const noexcept {
+  const auto step = static_cast<std::size_t>(layout_.nodes_per_sector);
   for (int a = 0; a < layout_.n_local; ++a) {
     if (candidates && layout_.contact_row[static_cast<std::size_t>(a)] < 0) continue;
-    for (int c = 0; c < range_.columns; ++c) visit(a, c, layout_.node(a, range_.first + c));
+    std::size_t node = layout_.node(a, range_.first);
+    for (int c = 0; c < range_.columns; ++c, node += step) visit(a, c, node);
   }
 }
 

@@ -49,7 +49,7 @@ struct RingLayout {
   int n_sums = 0;              ///< of a group of columns in a step
   int group_columns = 0;       ///< sectors whose sums are added up together
   std::ptrdiff_t stride = 0;   ///< doubles between the components of a row
-  std::vector<Complex> frame;  ///< (n_local) axes of the nodes of a row in those of their sectors
+  std::vector<Complex> frame;  ///< (n_local) axes of a row in those of its sectors; in space
   std::vector<int> needs;  ///< (strips) strip that the step before must have done before strip i
   std::vector<int> contact_row;  ///< (n_local) place in `candidate`; -1: no contact candidates
   std::vector<std::vector<int>> candidate;  ///< (contact rows, N) place in ContactModel::nodes
