@@ -179,10 +179,11 @@ ComplementaryForm make_complementary(const CondensedProblem& p) {
   f.force = f.length / compliance;
   matrix = Eigen::MatrixXd::Zero(3 * m, 3 * m);
   const Eigen::MatrixXd nt = p.compliance(normal, tangential) / compliance,
+                        tn = p.compliance(tangential, normal) / compliance,
                         tt = p.compliance(tangential, tangential) / compliance;
   matrix.topLeftCorner(m, m) = p.compliance(normal, normal) / compliance - p.friction * nt;
   matrix.block(0, m, m, m) = nt;
-  matrix.block(m, 0, m, m) = nt.transpose() - p.friction * tt;
+  matrix.block(m, 0, m, m) = tn - p.friction * tt;
   matrix.block(m, m, m, m) = tt;
   matrix.block(m, 2 * m, m, m).setIdentity();
   matrix.bottomLeftCorner(m, m).diagonal().setConstant(2.0 * p.friction);

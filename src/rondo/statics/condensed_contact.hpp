@@ -68,7 +68,7 @@ double condensed_residual(const CondensedProblem& problem, const Eigen::VectorXd
 
 /// The law as a linear complementarity problem without units (6.4f): forces over `force`, gaps and
 /// slips over `length`; z = (r_n, r_t + μ r_n, backward slip), y = (gap, forward slip, μ r_n -
-/// r_t).
+/// r_t). The compliance need not be symmetric here.
 struct ComplementaryForm {
   Lcp lcp;              ///< of 3m
   double length = 0.0;  ///< largest |free| [m]

@@ -4,7 +4,7 @@
 #include <set>
 #include <utility>
 
-#include "rondo/statics/lemke.hpp"
+#include "rondo/statics/condensed_contact.hpp"
 #include "rondo/statics/steady/rolling_groups.hpp"
 #include "rondo/statics/steady/rolling_law.hpp"
 
@@ -29,31 +29,11 @@ std::vector<int> key_of(const RollingStatuses& statuses) {
   return key;
 }
 
-/// As make_complementary (condensed_contact.hpp), of a compliance that is not symmetric.
 Lcp complementary(const PlaneProblem& w, const RollingDrive& d) {
-  const Index m = w.n_pairs();
-  const auto normal = Eigen::seqN(0, m, 2), shear = Eigen::seqN(1, m, 2);
   VectorXd free = w.base;
-  free(normal).array() += d.height;
-  free(shear).array() += d.speed * w.time;
-  const double compliance = w.matrix.diagonal().cwiseAbs().mean();
-  const Eigen::MatrixXd g = w.matrix / compliance;
-  Lcp lcp;
-  lcp.matrix = Eigen::MatrixXd::Zero(3 * m, 3 * m);
-  lcp.matrix.topLeftCorner(m, m) = g(normal, normal) - d.friction * g(normal, shear);
-  lcp.matrix.block(0, m, m, m) = g(normal, shear);
-  lcp.matrix.block(m, 0, m, m) = g(shear, normal) - d.friction * g(shear, shear);
-  lcp.matrix.block(m, m, m, m) = g(shear, shear);
-  lcp.matrix.block(m, 2 * m, m, m).setIdentity();
-  lcp.matrix.bottomLeftCorner(m, m).diagonal().setConstant(2.0 * d.friction);
-  lcp.matrix.block(2 * m, m, m, m).diagonal().setConstant(-1.0);
-  const double length = free.cwiseAbs().maxCoeff();
-  lcp.q = VectorXd::Zero(3 * m);
-  lcp.q.head(m) = free(normal) / length;
-  lcp.q.segment(m, m) = free(shear) / length;
-  lcp.cover = VectorXd::Ones(3 * m);
-  lcp.cover.segment(m, m).setConstant(1.0 / std::max(1.0, d.friction));
-  return lcp;
+  free(Eigen::seqN(0, w.n_pairs(), 2)).array() += d.height;
+  free(Eigen::seqN(1, w.n_pairs(), 2)).array() += d.speed * w.time;
+  return make_complementary({w.matrix, std::move(free), d.friction}).lcp;
 }
 
 RollingStatuses pivoted_statuses(const LcpSolution& lcp, double friction) {

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/rom/wheel/ring_harmonics.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
+
+namespace rondo::rom {
+namespace {
+
+using Complexes = std::complex<double>;
+using Eigen::Index, Eigen::MatrixXcd, Eigen::VectorXcd, Eigen::VectorXd;
+
+constexpr Complexes i{0.0, 1.0};
+
+Complexes wave(int n, int k) {
+  return std::polar(1.0, 2.0 * std::numbers::pi * k / n);
+}
+
+/// Rows of the nodes with mass, and of the contact nodes: both components of each node.
+struct Parts {
+  std::vector<Index> inner, contact;
+
+  explicit Parts(const Ring& ring) {
+    for (Index a = 0; a < ring.n_rows() / 2; ++a) {
+      const bool touches =
+          std::ranges::find(ring.contact, static_cast<int>(a)) != ring.contact.end();
+      if (!touches) inner.insert(inner.end(), {2 * a, 2 * a + 1});
+    }
+    for (const int a : ring.contact)
+      contact.insert(contact.end(), {Index{2} * a, Index{2} * a + 1});
+  }
+};
+
+/// (rows) mass of each row.
+VectorXd masses(const Ring& ring) {
+  VectorXd m(ring.n_rows());
+  for (Index a = 0; a < m.size(); ++a) m[a] = ring.mass[at(a / 2)];
+  return m;
+}
+
+/// J u of each node, or of each column of a matrix.
+MatrixXcd quarter_turned(const MatrixXcd& u) {
+  MatrixXcd out(u.rows(), u.cols());
+  for (Index a = 0; a < u.rows(); a += 2) {
+    out.row(a) = -u.row(a + 1);
+    out.row(a + 1) = u.row(a);
+  }
+  return out;
+}
+
+VectorXcd reference(const Ring& ring) {
+  VectorXcd x(ring.n_rows());
+  for (std::size_t a = 0; a < ring.place.size(); ++a) {
+    x[static_cast<Index>(2 * a)] = ring.place[a].re;
+    x[static_cast<Index>(2 * a + 1)] = ring.place[a].im;
+  }
+  return x;
+}
+
+/// The eigenproblem of the nodes with mass, contact nodes condensed; M^½ φ_i are its vectors.
+struct Condensed {
+  MatrixXcd matrix;  ///< M^-½ (K_ii - K_ic K_cc⁻¹ K_ci) M^-½
+  MatrixXcd follow;  ///< φ_c = follow φ_i
+  VectorXd root;     ///< (inner) √M
+
+  Condensed(const Ring& ring, const Parts& parts, int k) {
+    const MatrixXcd all = stiffness_of(ring, k);
+    const MatrixXcd k_ci = all(parts.contact, parts.inner);
+    follow = -MatrixXcd(all(parts.contact, parts.contact)).llt().solve(k_ci);
+    root = masses(ring)(parts.inner).cwiseSqrt();
+    const MatrixXcd condensed = all(parts.inner, parts.inner) + k_ci.adjoint() * follow;
+    const VectorXd scale = root.cwiseInverse();
+    matrix = scale.asDiagonal() * condensed * scale.asDiagonal();
+    matrix = (0.5 * (matrix + matrix.adjoint())).eval();
+  }
+};
+
+RingHarmonic harmonic_of(const Ring& ring, const Parts& parts, int k, Index n_modes) {
+  const Condensed c(ring, parts, k);
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(c.matrix);
+  RingHarmonic h;
+  h.k = k;
+  h.squares = solver.eigenvalues().head(n_modes);
+  const MatrixXcd inner =
+      c.root.cwiseInverse().asDiagonal() * solver.eigenvectors().leftCols(n_modes);
+  h.contact = c.follow * inner;
+  h.shapes = MatrixXcd::Zero(ring.n_rows(), n_modes);
+  h.shapes(parts.inner, Eigen::all) = inner;
+  h.shapes(parts.contact, Eigen::all) = h.contact;
+  const MatrixXcd weighted = masses(ring).asDiagonal() * h.shapes;
+  const MatrixXcd turning = weighted.adjoint() * quarter_turned(h.shapes);
+  h.coriolis = 0.5 * (turning - turning.adjoint());
+  h.reference = weighted.adjoint() * reference(ring);
+  h.turned = weighted.adjoint() * quarter_turned(reference(ring));
+  VectorXcd ones(ring.n_rows());
+  for (Index a = 0; a < ones.size(); a += 2) ones[a] = 1.0, ones[a + 1] = -i;
+  h.translation = weighted.transpose() * ones;
+  if (k != 0) h.reference.setZero(), h.turned.setZero();
+  if (k != 1) h.translation.setZero();
+  return h;
+}
+
+/// How many eigenvalues of a Hermitian matrix are negative.
+Index n_negative(const MatrixXcd& z) {
+  if (z.size() == 0) return 0;
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(z, Eigen::EigenvaluesOnly);
+  return (solver.eigenvalues().array() < 0.0).count();
+}
+
+/// Z_k of the ring and of the modes, at the rate ks and the spin s.
+struct Dynamic {
+  MatrixXcd ring, modes;
+
+  Dynamic(const Ring& of, const RingHarmonic* h, int k, double spin, double rate) {
+    const double straight = spin * spin + rate * rate, across = 2.0 * rate * spin;
+    const VectorXd m = masses(of);
+    ring = stiffness_of(of, k);
+    for (Index a = 0; a < ring.rows(); ++a) ring(a, a) -= straight * m[a];
+    for (Index a = 0; a < ring.rows(); a += 2) {
+      ring(a, a + 1) -= i * across * m[a];
+      ring(a + 1, a) += i * across * m[a];
+    }
+    if (!h) return;
+    modes = i * across * h->coriolis;
+    modes.diagonal() += (h->squares.array() - straight).matrix();
+  }
+  /// The convected form says what a pattern does that came from rest only if no mode that is left
+  /// out has passed its critical spin.
+  [[nodiscard]] bool has_meaning() const { return n_negative(ring) == n_negative(modes); }
+};
+
+}  // namespace
+
+Ring make_ring(const fem::SectorStiffness& stiffness, std::span<const double> mass,
+               std::span<const Vec2> reference, std::span<const int> contact) {
+  Ring ring{stiffness, {}, {}, {}};
+  std::vector<char> touches(at(stiffness.nodes_per_sector));
+  for (const int node : contact) touches[at(node % stiffness.nodes_per_sector)] = 1;
+  for (std::size_t a = 0; a < stiffness.n_local(); ++a) {
+    const std::size_t node = stiffness.node(a, 0);
+    const Vec2 x = reference[node];
+    ring.place.push_back({x.x, x.y});
+    ring.mass.push_back(mass[node]);
+    const bool contacts = touches[at(stiffness.nodes[a])] != 0;
+    RONDO_DEMAND(contacts == (mass[node] == 0.0), a, mass[node]);
+    if (contacts) ring.contact.push_back(static_cast<int>(a));
+  }
+  RONDO_DEMAND(ring.contact.size() * at(stiffness.n_sectors) == contact.size(), ring.contact.size(),
+               stiffness.n_sectors, contact.size());
+  return ring;
+}
+
+MatrixXcd stiffness_of(const Ring& ring, int k) {
+  const fem::SectorStiffness& stiffness = ring.stiffness;
+  MatrixXcd out = MatrixXcd::Zero(ring.n_rows(), ring.n_rows());
+  for (std::size_t a = 0; a < stiffness.n_local(); ++a)
+    for (const fem::SectorStiffness::Entry& e : stiffness.row(a))
+      out.block<2, 2>(static_cast<Index>(2 * a), 2 * e.column) +=
+          wave(ring.n_sectors(), k * e.shift) * Eigen::Map<const Eigen::Matrix2d>(e.block.data());
+  return 0.5 * (out + out.adjoint());
+}
+
+VectorXd frequencies_of(const Ring& ring, int k) {
+  const Condensed c(ring, Parts(ring), k);
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(c.matrix, Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+}
+
+std::vector<RingHarmonic> ring_modes(const Ring& ring, const ModeChoice& choice) {
+  struct Mode {
+    double frequency;
+    int k;
+  };
+  std::vector<Mode> modes;
+  for (int k = 0; 2 * k < ring.n_sectors(); ++k)
+    for (const double frequency : frequencies_of(ring, k)) modes.push_back({frequency, k});
+  std::ranges::stable_sort(modes, {}, &Mode::frequency);
+  std::vector<Index> taken(at((ring.n_sectors() + 1) / 2));
+  int count = 0;
+  for (const Mode& mode : modes) {
+    if (count >= choice.wanted || (mode.frequency > choice.highest && count >= choice.fewest))
+      break;
+    ++taken[at(mode.k)];
+    count += mode.k == 0 ? 1 : 2;
+  }
+  std::vector<RingHarmonic> harmonics;
+  const Parts parts(ring);
+  for (std::size_t k = 0; k < taken.size(); ++k)
+    if (taken[k] > 0) harmonics.push_back(harmonic_of(ring, parts, static_cast<int>(k), taken[k]));
+  return harmonics;
+}
+
+int count_modes(std::span<const RingHarmonic> harmonics) noexcept {
+  Index n = 0;
+  for (const RingHarmonic& h : harmonics) n += (h.k == 0 ? 1 : 2) * h.squares.size();
+  return static_cast<int>(n);
+}
+
+RingResidual ring_residual(const Ring& ring, std::span<const RingHarmonic> harmonics,
+                           double spin_squared, ResidualForm form) {
+  const int n = ring.n_sectors();
+  const Index size = ring.n_contact();
+  const double spin = std::sqrt(spin_squared);
+  const Parts parts(ring);
+  const Index rows = ring.n_rows();
+  RingResidual out{n, size, {}, std::vector<double>(at(n) * at(size * rows)), {}, {}};
+  MatrixXcd forces = MatrixXcd::Zero(rows, size);
+  for (Index c = 0; c < size; ++c) forces(parts.contact[at(c)], c) = 1.0;
+  for (int k = 0; 2 * k <= n; ++k) {
+    const auto found = std::ranges::find(harmonics, k, &RingHarmonic::k);
+    const RingHarmonic* h = found == harmonics.end() ? nullptr : &*found;
+    const bool rolls = form == ResidualForm::convected && k > 0 && 2 * k < n;
+    Dynamic z(ring, h, k, spin, rolls ? k * spin : 0.0);
+    if (rolls && !z.has_meaning()) {
+      out.made_static.push_back(k);
+      z = Dynamic(ring, h, k, spin, 0.0);
+    }
+    const Eigen::PartialPivLU<MatrixXcd> lu(z.ring);
+    MatrixXcd g = lu.solve(forces);
+    if (h) g -= h->shapes * z.modes.partialPivLu().solve(h->contact.adjoint());
+    const MatrixXcd surface = g(parts.contact, Eigen::all);
+    g(parts.contact, Eigen::all) = 0.5 * (surface + surface.adjoint());
+    const double weight = (k == 0 || 2 * k == n ? 1.0 : 2.0) / n;
+    for (int d = 0; d < n; ++d)
+      Eigen::Map<Eigen::MatrixXd>(out.fields.data() + d * size * rows, rows, size) +=
+          weight * (wave(n, k * d % n) * g).real();
+    if (k > 0) continue;
+    const VectorXcd pull = spin_squared * (masses(ring).asDiagonal() * reference(ring));
+    VectorXcd u = lu.solve(pull);
+    if (h) u -= h->shapes * z.modes.partialPivLu().solve(spin_squared * h->reference);
+    out.centrifugal = u.real();
+  }
+  for (int d = 0; d < n; ++d) {
+    const Eigen::Map<const Eigen::MatrixXd> all(out.fields.data() + d * size * rows, rows, size);
+    const Eigen::MatrixXd block = all(parts.contact, Eigen::all);
+    out.blocks.insert(out.blocks.end(), block.data(), block.data() + block.size());
+  }
+  return out;
+}
+
+}  // namespace rondo::rom

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The harmonics of a ring of N equal sectors whose contact nodes have no mass
+/// (docs/reduced.md): modes, and what forces on the contact nodes do that no mode does. Vectors
+/// have two components for each node of a sector, radial and tangential in the frame of the sector;
+/// u_j = Re Σ_k w_k e^{ikψ_j} U_k with ψ_j = φ_j + θ, w_0 = 1 and w_k = 2. U_k stands still where
+/// the displacement stands still in space. Forces are per metre of width.
+#pragma once
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "rondo/fem/sector_stiffness.hpp"
+
+namespace rondo::rom {
+
+struct Ring {
+  const fem::SectorStiffness& stiffness;
+  std::vector<int> contact;    ///< (C) rows of the nodes that may touch
+  std::vector<double> mass;    ///< (n_local) 0 at those                              [kg/m]
+  std::vector<Complex> place;  ///< (n_local) X in the frame of the sector, x + iy        [m]
+
+  [[nodiscard]] int n_sectors() const noexcept { return stiffness.n_sectors; }
+  [[nodiscard]] Eigen::Index n_rows() const noexcept {
+    return static_cast<Eigen::Index>(2 * stiffness.n_local());
+  }
+  [[nodiscard]] Eigen::Index n_contact() const noexcept {
+    return static_cast<Eigen::Index>(2 * contact.size());
+  }
+};
+
+/// @param mass, reference (n) of the nodes of the body; masses of contact nodes are 0
+/// @param contact nodes of the body, the same in every sector
+/// @pre each contact node couples with a row that has mass
+[[nodiscard]] Ring make_ring(const fem::SectorStiffness& stiffness, std::span<const double> mass,
+                             std::span<const Vec2> reference, std::span<const int> contact);
+
+/// K(k) = Σ e^{ikφ shift} K_shift.
+[[nodiscard]] Eigen::MatrixXcd stiffness_of(const Ring& ring, int k);
+
+/// The modes of one harmonic, φᴴ M φ = 1.
+struct RingHarmonic {
+  int k = 0;
+  Eigen::VectorXd squares;       ///< (r) Λ: ω²                                      [1/s²]
+  Eigen::MatrixXcd shapes;       ///< (rows, r) φ                                [1/√(kg/m)]
+  Eigen::MatrixXcd contact;      ///< (2C, r) φ_c
+  Eigen::MatrixXcd coriolis;     ///< (r, r) J_k = φᴴ M J φ
+  Eigen::VectorXcd reference;    ///< (r) φᴴ M X; harmonic 0
+  Eigen::VectorXcd turned;       ///< (r) φᴴ M J X; harmonic 0
+  Eigen::VectorXcd translation;  ///< (r) l = φᵀ M (1, -i of each node); harmonic 1
+
+  [[nodiscard]] double weight() const noexcept { return k == 0 ? 1.0 : 2.0; }
+};
+
+/// How many modes are taken: the lowest over all harmonics 0 <= k < N/2, where a mode of k > 0
+/// counts for two.
+struct ModeChoice {
+  int wanted = 0;          ///< at least so many, where there are
+  double highest = 1e300;  ///< and no higher angular frequency, but `fewest` at least  [rad/s]
+  int fewest = 0;
+};
+
+/// The harmonics that have modes, ascending.
+[[nodiscard]] std::vector<RingHarmonic> ring_modes(const Ring& ring, const ModeChoice& choice);
+
+/// Of the harmonics: modes that count for two are counted so.
+[[nodiscard]] int count_modes(std::span<const RingHarmonic> harmonics) noexcept;
+
+/// Angular frequencies of a harmonic, ascending, all of them [rad/s].
+[[nodiscard]] Eigen::VectorXd frequencies_of(const Ring& ring, int k);
+
+/// A force pattern that stands still in space meets the inertia that the modes left out have
+/// under it; of a static residual it meets their stiffness alone.
+enum class ResidualForm { convected, still };
+
+/// What forces on the contact nodes do beyond the modes, for one spin.
+struct RingResidual {
+  int n_sectors = 0;
+  Eigen::Index size = 0;  ///< 2C
+  std::vector<double>
+      blocks;  ///< (N, 2C, 2C) column-major: G[i - j], node i by a force on j [m²/N]
+  std::vector<double> fields;    ///< (N, 2C, rows) the same of all rows of a sector       [m²/N]
+  Eigen::VectorXd centrifugal;   ///< (rows) displacement by the spin beyond the modes         [m]
+  std::vector<int> made_static;  ///< harmonics in which the convected form has no meaning
+
+  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> block(int lag) const noexcept {
+    const int d = (lag % n_sectors + n_sectors) % n_sectors;
+    return {blocks.data() + static_cast<Eigen::Index>(d) * size * size, size, size};
+  }
+};
+
+/// @param spin_squared s² [1/s²]
+[[nodiscard]] RingResidual ring_residual(const Ring& ring, std::span<const RingHarmonic> harmonics,
+                                         double spin_squared, ResidualForm form);
+
+}  // namespace rondo::rom

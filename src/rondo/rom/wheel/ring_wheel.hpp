@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A rolling ring in a few modes whose contact is exact (docs/reduced.md): modes carry the
+/// dynamics, the compliance of the contact nodes carries all the rest, contact nodes have no mass
+/// and touch the ground where they are. All in the plane, per metre of width.
+#pragma once
+#include <array>
+#include <complex>
+#include <span>
+#include <vector>
+
+#include "rondo/contact/coupled/block.hpp"
+#include "rondo/contact/ground.hpp"
+#include "rondo/core/vec2.hpp"
+#include "rondo/rom/wheel/gap_law.hpp"
+#include "rondo/rom/wheel/ring_harmonics.hpp"
+
+namespace rondo::rom {
+
+/// Which distance a node slides in a step.
+enum class SlipRule {
+  anchored,  ///< from where it was, or from where it came to the ground within the step
+  bdf2,      ///< by the backward difference of second order, without landing within a step
+};
+
+struct WheelSettings {
+  double dt = 0.0;                 ///< [s]
+  double mass_damping = 0.0;       ///< α                                        [1/s]
+  double stiffness_damping = 0.0;  ///< β                                          [s]
+  double friction = 0.0;           ///< μ
+  double theta = 0.6;              ///< share of the new force in that on the modes
+  SlipRule slip = SlipRule::anchored;
+};
+
+/// The rim over a step from t_n to t_{n+1}.
+struct WheelMotion {
+  double angle = 0.0, angle_next = 0.0;  ///< θ, counter-clockwise                      [rad]
+  double spin_next = 0.0;                ///< s at t_{n+1}                            [rad/s]
+  double spin_rate = 0.0;                ///< (s_{n+1} - s_n)/Δt                     [rad/s²]
+  Vec2 center, center_next;              ///< [m]
+  Vec2 pull;                             ///< mean of c̈ - g, fixed frame               [m/s²]
+};
+
+/// Energies at the end of a step, and the works in it [J/m].
+struct WheelEnergy {
+  double kinetic = 0.0;                      ///< of the modes, in the co-rotating frame
+  double elastic = 0.0;                      ///< of the modes, less what the spin softens them by
+  double residual = 0.0;                     ///< of the compliance of the contact nodes
+  double frame = 0.0;                        ///< work of the inertia of the frame and of gravity
+  double by_mass = 0.0, by_stiffness = 0.0;  ///< taken by damping of the modes
+  double by_residual = 0.0;                  ///< taken by damping of the residual
+  double friction = 0.0;                     ///< taken by friction
+  double arrival = 0.0;  ///< taken where nodes arrive, as distance from the ground
+  double rim = 0.0;      ///< work of the ground's forces on the rim
+  double scheme = 0.0;   ///< by which the distances of the law differ from the work of the forces
+};
+
+/// A node that the ground presses.
+struct WheelContact {
+  int node = 0;       ///< sector · C + place among the contact nodes of a sector
+  Vec2 normal;        ///< of the ground, fixed frame
+  Vec2 force;         ///< on the node, fixed frame                                [N/m]
+  double gap = 0.0;   ///< [m]
+  double slip = 0.0;  ///< along the normal turned by -90°                           [m]
+  contact::Status status = contact::Status::open;
+};
+
+struct WheelReport {
+  Vec2 force;           ///< of the ground                                           [N/m]
+  double torque = 0.0;  ///< about the center, counter-clockwise                       [N]
+  WheelEnergy energy;
+  int candidates = 0;  ///< nodes whose contact was solved
+  int iterations = 0;
+  bool pivoted = false;
+  double law_residual = 0.0;  ///< over the largest force
+  double free = 0.0;  ///< largest distance that a contact would move without forces      [m]
+  std::span<const WheelContact> contacts;  ///< valid until the next step
+};
+
+class RingWheel {
+ public:
+  /// @param residuals for spins whose squares are `squares`: one, or three between which it is
+  /// interpolated. @param radius the largest of the undeformed ring [m]
+  RingWheel(const Ring& ring, std::vector<RingHarmonic> harmonics,
+            std::vector<RingResidual> residuals, std::vector<double> squares,
+            const contact::Ground& ground, double radius, const WheelSettings& settings);
+
+  /// Starts from the stationary spin, at angle_next and center_next.
+  void start(const WheelMotion& motion);
+  /// Starts from fields of all nodes in the co-rotating frame, (n) each; only their modes remain.
+  void start(const WheelMotion& motion, std::span<const Vec2> u, std::span<const Vec2> v);
+  /// Allocates nothing unless the law of contact needs pivoting.
+  [[nodiscard]] WheelReport step(const WheelMotion& motion);
+
+  [[nodiscard]] std::span<const RingHarmonic> harmonics() const noexcept { return harmonics_; }
+  [[nodiscard]] WheelEnergy energy_at_start() const;
+  /// Displacement of the free nodes after the last step, in the co-rotating frame; (n).
+  /// @param angle θ at its end. @param contact_alone writes only that of the contact nodes
+  void displacement(double angle, bool contact_alone, std::span<Vec2> u) const;
+  /// And the mean velocity in it. @param angle θ in its middle
+  void velocity(double angle, std::span<Vec2> v) const;
+  /// W[lag]: displacement at the end of a step of contact node i by a force on j, i - j = lag.
+  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> compliance(int lag) const noexcept;
+  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> residual(int lag) const noexcept;
+
+  /// The numbers from which another wheel of this ring, and these settings, resumes bit for bit.
+  [[nodiscard]] std::size_t n_numbers() const noexcept;
+  [[nodiscard]] std::vector<double> save() const;
+  void restore(std::span<const double> numbers);
+
+ private:
+  using Complexes = std::complex<double>;
+  using Vector = Eigen::VectorXcd;
+  using Matrix = Eigen::MatrixXcd;
+
+  /// The modes of a harmonic; their coefficients y and velocities p are one after the other.
+  struct Modes {
+    Vector state, before;    ///< (2r) at the end of the last step, and of the one before
+    Vector force, outside;   ///< (r) of the contact, φ_cᴴ λ; of the frame
+    Matrix carry, push;      ///< (2r, 2r) E, (2r, r) Δt S: of the step
+    Vector contact, middle;  ///< (2C) φ_c y without new forces, φ_c p in the middle of the step
+    Vector work;             ///< (2r)
+  };
+  /// A contact node near the ground.
+  struct Near {
+    int node = 0;
+    Complex turn;  ///< e^{iψ} at the end of the step
+    Vec2 free;     ///< place from the center at the end of the step without new forces   [m]
+    Vec2 place;    ///< and with them                                                     [m]
+    bool candidate = false;
+  };
+  /// What is remembered of a contact node.
+  struct Memory {
+    Vec2 force;                      ///< in the frame of the sector                [N/m]
+    Vec2 filtered, filtered_before;  ///< forces that the residual answers to       [N/m]
+    std::array<Vec2, 3> place{};     ///< from the center, newest first               [m]
+    std::array<double, 2> gap{};     ///< newest first                                [m]
+    int known = 0;                   ///< number of places that are known
+    contact::Status status = contact::Status::open;
+    double side = 0.0;
+  };
+
+  /// aᵀ G b of the filtered forces at the end of the step, at its end and start, at its start
+  /// [J/m].
+  struct Products {
+    double end = 0.0, across = 0.0, start = 0.0;
+  };
+  using Block = contact::Block;
+  static constexpr std::size_t numbers_of_node = 15;
+  void use_spin(const WheelMotion& motion);
+  void begin(const WheelMotion& motion);
+  void look_at_start(const WheelMotion& motion);
+  void project(double angle, std::span<const Vec2> field, bool velocity);
+  void set_table(double spin);
+  void fill_compliance();
+  void move_modes(const WheelMotion& motion);
+  void find_near(const WheelMotion& motion, double filter);
+  [[nodiscard]] Vec2 displacement(int node, Complex turn, double filter) const;
+  [[nodiscard]] Vec2 distance(const Near& near, const WheelMotion& motion) const;
+  void add_candidates(const WheelMotion& motion);
+  void fill_law(const WheelMotion& motion);
+  void solve(const WheelMotion& motion, double friction, WheelReport& report);
+  void place_all();
+  [[nodiscard]] bool turn_normals(const WheelMotion& motion) const;
+  [[nodiscard]] bool join(const WheelMotion& motion);
+  void take_forces(WheelReport& report);
+  void account(const WheelMotion& motion, WheelReport& report);
+  void account_modes(const WheelMotion& motion, WheelEnergy& energy) const;
+  [[nodiscard]] double work_on_modes(double angle, bool at_end) const;
+  [[nodiscard]] Products products(const RingResidual& table) const;
+  void remember();
+  struct Rows;
+  template <class Coefficients, class Filtered>
+  void write_field(Rows rows, double angle, const Eigen::VectorXd& constant,
+                   Coefficients&& coefficients, Filtered&& filtered, std::span<Vec2> field) const;
+  [[nodiscard]] Vec2 arm(int node) const noexcept {
+    const Complex x = ring_.place[static_cast<std::size_t>(
+        ring_.contact[static_cast<std::size_t>(node % n_contact_)])];
+    return {x.re, x.im};
+  }
+  [[nodiscard]] int sector(int node) const noexcept { return node / n_contact_; }
+  [[nodiscard]] Memory& memory_of(int node) noexcept {
+    return memory_[static_cast<std::size_t>(node)];
+  }
+  [[nodiscard]] const Memory& memory_of(int node) const noexcept {
+    return memory_[static_cast<std::size_t>(node)];
+  }
+  [[nodiscard]] Block answer(const double* table, int to, int from) const noexcept;
+
+  const Ring& ring_;
+  const std::vector<RingHarmonic> harmonics_;
+  const std::vector<RingResidual> residuals_;
+  const std::vector<double> squares_;
+  const contact::Ground& ground_;
+  const double radius_;
+  const WheelSettings settings_;
+  const int n_contact_;  ///< C
+  const bool flat_;
+  RingResidual table_, table_before_;  ///< of the spins at both ends of the step, without fields
+  std::array<double, 3> shares_{1.0};  ///< of `residuals_` in the table
+  std::vector<double> compliance_;     ///< (N, 2C, 2C) W[lag]                       [m²/N]
+  std::array<double, 3> used_{};       ///< angle turned, rate and end spin of the matrices
+  bool has_matrices_ = false;
+  std::vector<Modes> modes_;
+  std::vector<Memory> memory_;  ///< (N C)
+  std::vector<int> active_;     ///< nodes with a filtered force, ascending
+  std::vector<Near> near_;
+  std::vector<std::size_t> solved_;    ///< places of the candidates in near_
+  std::vector<contact::Touch> touch_;  ///< of these, at `place`
+  std::vector<GapContact> law_;
+  std::vector<WheelContact> contacts_;
+  std::vector<double> before_;  ///< (solved) distance from the ground before the step [m]
+  GapLaw gap_law_;
+};
+
+}  // namespace rondo::rom

@@ -1,0 +1,380 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Reduced wheels with exact contact: numbers of an independent implementation of the same method,
+/// and what must hold whatever the numbers.
+#include "rondo/rom/wheel/ring_wheel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "rondo/core/process_wide.hpp"
+#include "support/models.hpp"
+
+namespace rondo::rom {
+namespace ring_wheel_test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// The disk of cases/steady-rolling.toml.
+struct Disk {
+  rondo::test::Built built;
+  fem::SectorStiffness sector;
+  std::vector<double> mass;
+
+  Disk(int radial, int circumferential) {
+    built = rondo::test::build(rondo::test::rolling_disk(radial, circumferential));
+    sector = fem::assemble_sector(built.mesh, built.materials);
+    mass = fem::move_contact_mass(built.mesh, built.model.mass, built.mesh.boundary).mass;
+  }
+  [[nodiscard]] Ring ring() const {
+    return make_ring(sector, mass, built.model.reference, built.mesh.boundary);
+  }
+};
+
+const Disk& disk() {
+  static const Disk d(12, 180);
+  return d;
+}
+
+struct Rolling {
+  int modes = 20;
+  double passes = 2.618033989;  ///< steps in the pass of a sector
+  double friction = 0.4;
+  ResidualForm form = ResidualForm::convected;
+  SlipRule slip = SlipRule::anchored;
+  double theta = 0.6;
+  double spin = 100.0 / 3.0;  ///< ω, clockwise
+  double speed = 10.0;
+  double end = 0.2;
+  double angle = 0.0;  ///< θ at the start
+  std::optional<dynamics::Table> spins{};
+  double lowest = 0.29;
+  bool damped = true;
+  contact::GroundShape ground{};
+  double start_x = 0.0;
+};
+
+struct Outcome {
+  double x = 0.0, y = 0.0, deviation = 0.0;  ///< means of the last quarter, deviation of F_y
+  double unbalanced = 0.0;                   ///< largest defect of the ledger in a step [J/m]
+  double energy = 0.0;                       ///< largest [J/m]
+  double residual = 0.0;                     ///< of the law
+  WheelEnergy sums{};
+  std::vector<Vec2> forces;
+};
+
+double total(const WheelEnergy& e) {
+  return e.kinetic + e.elastic + e.residual;
+}
+double change(const WheelEnergy& e) {
+  return e.frame - e.by_mass - e.by_stiffness - e.by_residual - e.friction - e.arrival - e.rim +
+         e.scheme;
+}
+
+/// The motion of a run: lowered from 0.31 m in 0.02 s.
+class Motion {
+ public:
+  Motion(const Rolling& run, double dt)
+      : run_(run), dt_(dt), height_({{0.0, 0.31}, {0.02, run.lowest}}) {
+    if (run.spins)
+      spin_ = *run.spins;
+    else
+      spin_ = dynamics::Table(run.spin);
+  }
+  [[nodiscard]] WheelMotion at(int n) const {
+    const double t = n * dt_, end = (n + 1) * dt_;
+    WheelMotion m;
+    m.angle = run_.angle - spin_.integral(0.0, t);
+    m.angle_next = m.angle - spin_.integral(t, dt_);
+    m.spin_next = -spin_.at(end);
+    m.spin_rate = -spin_.change(t, dt_) / dt_;
+    m.center = {run_.start_x + run_.speed * t, height_.at(t)};
+    m.center_next = {run_.start_x + run_.speed * end, height_.at(end)};
+    const double before = n > 0 ? height_.change(t - dt_, dt_) / dt_ : height_.slope(0.0);
+    m.pull = {0.0, (height_.change(t, dt_) / dt_ - before) / dt_};
+    return m;
+  }
+  [[nodiscard]] WheelMotion start() const {
+    WheelMotion m = at(0);
+    m.angle_next = m.angle;
+    m.center_next = m.center;
+    m.spin_next = -spin_.at(0.0);
+    m.spin_rate = 0.0;
+    return m;
+  }
+
+ private:
+  const Rolling& run_;
+  double dt_;
+  dynamics::Table height_, spin_;
+};
+
+struct Wheel {
+  const Disk& of;
+  Ring ring;
+  contact::Ground ground;
+  double dt;
+  RingWheel wheel;
+  Motion motion;
+
+  Wheel(const Disk& d, const Rolling& run)
+      : of(d),
+        ring(d.ring()),
+        ground(run.ground),
+        dt(2.0 * pi / d.sector.n_sectors / std::abs(run.spin == 0.0 ? 100.0 / 3.0 : run.spin) /
+           run.passes),
+        wheel(make(run)),
+        motion(run, dt) {
+    wheel.start(motion.start());
+  }
+
+ private:
+  RingWheel make(const Rolling& run) {
+    std::vector<RingHarmonic> modes = ring_modes(ring, {.wanted = run.modes});
+    std::vector<double> squares{run.spin * run.spin};
+    if (run.spins) {
+      const double most = std::pow(run.spins->largest(), 2);
+      squares = {0.067 * most, 0.5 * most, 0.933 * most};
+    }
+    std::vector<RingResidual> residuals;
+    for (const double square : squares)
+      residuals.push_back(ring_residual(ring, modes, square, run.form));
+    const WheelSettings settings{
+        dt, run.damped ? 200.0 : 0.0, run.damped ? 2e-5 : 0.0, run.friction, run.theta, run.slip};
+    return {ring, std::move(modes), std::move(residuals), squares, ground, 0.3, settings};
+  }
+};
+
+Outcome outcome(const Rolling& run, const Disk& d = disk()) {
+  const OneBlasThread one;
+  Wheel w(d, run);
+  Outcome o;
+  const auto n = static_cast<int>(std::lround(run.end / w.dt));
+  double energy = 0.0, squares = 0.0;
+  int counted = 0;
+  for (int i = 0; i < n; ++i) {
+    const WheelReport r = w.wheel.step(w.motion.at(i));
+    const double now = total(r.energy);
+    if (i > 0) o.unbalanced = std::max(o.unbalanced, std::abs(now - energy - change(r.energy)));
+    o.energy = std::max(o.energy, std::abs(now));
+    o.residual = std::max(o.residual, r.law_residual);
+    o.sums.by_mass += r.energy.by_mass;
+    o.sums.by_stiffness += r.energy.by_stiffness;
+    o.sums.by_residual += r.energy.by_residual;
+    o.sums.friction += r.energy.friction;
+    o.sums.arrival += r.energy.arrival;
+    energy = now;
+    o.forces.push_back(r.force);
+    if ((i + 1) * w.dt <= 0.75 * run.end) continue;
+    ++counted;
+    o.x += r.force.x;
+    o.y += r.force.y;
+    squares += r.force.y * r.force.y;
+  }
+  o.x /= counted;
+  o.y /= counted;
+  o.deviation = std::sqrt(std::max(0.0, squares / counted - o.y * o.y));
+  return o;
+}
+
+}  // namespace
+
+TEST(RingHarmonics, FrequenciesAreThoseOfARingWithoutMassAtItsContact) {
+  const Ring ring = disk().ring();
+  const auto expect = [&](int k, double a, double b, double c) {
+    const Eigen::VectorXd f = frequencies_of(ring, k);
+    EXPECT_NEAR(f[0], a, 1e-6) << k;
+    EXPECT_NEAR(f[1], b, 1e-6) << k;
+    EXPECT_NEAR(f[2], c, 1e-6) << k;
+  };
+  expect(0, 552.073678, 1699.881599, 2556.560515);
+  expect(1, 735.354940, 1673.900434, 2690.485774);
+  expect(2, 1068.058165, 1695.088023, 3015.429895);
+  expect(5, 1710.994441, 2678.304613, 4221.232858);
+  expect(10, 2962.073193, 4465.820969, 5355.153536);
+}
+
+TEST(RingHarmonics, TheLowestModesAreTakenAndThoseOfTwoRealNumbersCountTwice) {
+  const Ring ring = disk().ring();
+  const auto modes = ring_modes(ring, {.wanted = 40});
+  EXPECT_EQ(count_modes(modes), 41);
+  std::vector<Eigen::Index> sizes;
+  for (const RingHarmonic& h : modes) {
+    sizes.push_back(h.squares.size());
+    const Eigen::MatrixXcd j = h.coriolis;
+    EXPECT_EQ((j + j.adjoint()).norm(), 0.0);
+  }
+  EXPECT_EQ(sizes, (std::vector<Eigen::Index>{3, 3, 3, 2, 2, 2, 2, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(count_modes(ring_modes(ring, {.wanted = 20})), 20);
+  EXPECT_EQ(count_modes(ring_modes(ring, {.wanted = 40, .highest = 1000.0, .fewest = 10})), 11);
+}
+
+/// The sector of these disks has its first axis along the tangent, its second along the radius.
+TEST(RingHarmonics, TheResidualIsTheComplianceThatTheModesLeave) {
+  const Ring ring = disk().ring();
+  const double square = std::pow(100.0 / 3.0, 2);
+  const auto expect = [&](const RingResidual& g, int lag, double rr, double rt, double tt) {
+    EXPECT_NEAR(1e8 * g.block(lag)(1, 1), rr, 6e-9) << lag;
+    EXPECT_NEAR(1e8 * g.block(lag)(1, 0), -rt, 6e-9) << lag;
+    EXPECT_NEAR(1e8 * g.block(lag)(0, 1), rt, 6e-9) << lag;
+    EXPECT_NEAR(1e8 * g.block(lag)(0, 0), tt, 6e-9) << lag;
+  };
+  const RingResidual all = ring_residual(ring, {}, square, ResidualForm::convected);
+  expect(all, 0, 12.45549444, 0.0, 17.56140959);
+  expect(all, 1, 6.41340481, -0.551936031, 13.752330335);
+  expect(all, 5, 2.204972561, -0.065861575, 8.917220456);
+  expect(ring_residual(ring, {}, square, ResidualForm::still), 0, 12.40101696, 0.0, 17.53264242);
+  const auto modes = ring_modes(ring, {.wanted = 20});
+  const RingResidual rest = ring_residual(ring, modes, square, ResidualForm::convected);
+  expect(rest, 0, 9.241287529, 0.0, 9.600339950);
+  expect(rest, 1, 3.222878153, -0.562581345, 5.800770005);
+  EXPECT_TRUE(rest.made_static.empty());
+}
+
+/// Beyond the critical spin of a harmonic that no mode has, 154.8 rad/s of k = 89.
+TEST(RingHarmonics, AHarmonicBeyondItsCriticalSpinIsMadeStatic) {
+  const Ring ring = disk().ring();
+  const auto modes = ring_modes(ring, {.wanted = 20});
+  EXPECT_TRUE(
+      ring_residual(ring, modes, 153.0 * 153.0, ResidualForm::convected).made_static.empty());
+  const auto beyond = ring_residual(ring, modes, 156.0 * 156.0, ResidualForm::convected);
+  ASSERT_FALSE(beyond.made_static.empty());
+  EXPECT_EQ(beyond.made_static.back(), 89);
+}
+
+struct Row {
+  Rolling run;
+  double x, y, deviation;
+};
+
+class WheelRows : public testing::TestWithParam<Row> {};
+
+/// Forces of an independent implementation, to what it printed.
+TEST_P(WheelRows, AreMetToTheDigit) {
+  const Row& row = GetParam();
+  const Outcome o = outcome(row.run);
+  EXPECT_NEAR(o.x, row.x, 0.1);
+  EXPECT_NEAR(o.y, row.y, 0.06);
+  EXPECT_NEAR(o.deviation, row.deviation, 0.6);
+  EXPECT_LE(o.residual, 1e-9);
+  EXPECT_LE(o.unbalanced, 1e-11 * o.energy);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, WheelRows,
+    testing::Values(Row{{.friction = 0.0}, 0.0, 189685.7, 862},
+                    Row{{.friction = 0.2}, -18427.7, 189936.8, 808},
+                    Row{{.friction = 0.4}, -22239.8, 190121.7, 724},
+                    Row{{.friction = 0.6}, -23493.2, 190255.6, 687},
+                    Row{{.modes = 40, .friction = 0.2}, -18203.0, 189932.8, 863},
+                    Row{{.modes = 40}, -21945.1, 190116.3, 757},
+                    Row{{.modes = 0}, -22026.1, 190199.5, 311},
+                    Row{{.modes = 40, .form = ResidualForm::still}, -22014.0, 190144.2, 740},
+                    Row{{.modes = 40, .slip = SlipRule::bdf2}, -21848.9, 190119.2, 756},
+                    Row{{.passes = 1.618033989}, -22013.8, 190121.8, 755},
+                    Row{{.modes = 40, .passes = 4.0}, -21935.5, 190103.8, 795},
+                    Row{{.modes = 40, .passes = 8.0}, -21921.6, 190105.0, 841}));
+
+/// Works of the same run by two implementations [J/m].
+TEST(RingWheel, TheLedgerHasTheWorksOfAnother) {
+  const Outcome o = outcome({.modes = 40, .friction = 0.3});
+  EXPECT_NEAR(o.sums.by_mass, 351.9, 0.5);
+  EXPECT_NEAR(o.sums.by_stiffness, 110.3, 0.2);
+  EXPECT_NEAR(o.sums.by_residual, 146.0, 0.6);
+  // Friction by the mean of the forces at both ends of a step: near that of small steps.
+  const Outcome fine = outcome({.modes = 40, .passes = 20.618, .friction = 0.3});
+  EXPECT_NEAR(o.sums.friction, fine.sums.friction, 0.03 * fine.sums.friction);
+  EXPECT_NEAR(o.sums.arrival, 68.4, 0.3);
+}
+
+TEST(RingWheel, BackwardsIsTheMirror) {
+  const Outcome forwards = outcome({}), backwards = outcome({.spin = -100.0 / 3.0, .speed = -10.0});
+  EXPECT_NEAR(backwards.x, -forwards.x, 0.5);
+  EXPECT_NEAR(backwards.y, forwards.y, 0.5);
+}
+
+/// The wheel rolls on the same nodes, wherever they are at the start.
+TEST(RingWheel, TheAngleAtTheStartChangesNothing) {
+  const Outcome here = outcome({});
+  for (const double part : {0.25, 0.5, 0.8}) {
+    const Outcome there = outcome({.angle = part * 2.0 * pi / 180.0});
+    EXPECT_NEAR(there.x, here.x, 2e-4 * here.y) << part;
+    EXPECT_NEAR(there.y, here.y, 2e-4 * here.y) << part;
+  }
+}
+
+TEST(RingWheel, FiveSecondsDoNotDrift) {
+  const Outcome shorter = outcome({.friction = 0.3, .end = 0.4}),
+                longer = outcome({.friction = 0.3, .end = 5.0});
+  EXPECT_NEAR(longer.x, shorter.x, 5.0);
+  EXPECT_NEAR(longer.y, shorter.y, 5.0);
+  EXPECT_NEAR(longer.deviation, shorter.deviation, 9.0);
+  EXPECT_LE(longer.unbalanced, 1e-11 * longer.energy);
+}
+
+/// Contact at the mean of both ends of a step rings where nothing damps.
+TEST(RingWheel, WithoutDampingAForceWeightedToTheEndDoesNotRing) {
+  EXPECT_LT(outcome({.modes = 40, .friction = 0.3, .end = 1.5, .damped = false}).deviation, 2500.0);
+  EXPECT_GT(
+      outcome({.modes = 40, .friction = 0.3, .theta = 0.5, .end = 1.5, .damped = false}).deviation,
+      2e4);
+}
+
+/// Without the inertia that the modes left out have, the force grows with the speed.
+TEST(RingWheel, TheConvectedResidualHasTheInertiaThatTheStaticOneLacks) {
+  const Rolling fast{.modes = 0, .spin = 100.0, .speed = 30.0};
+  Rolling still = fast, many = fast;
+  still.form = ResidualForm::still;
+  many.modes = 40;
+  const double y = outcome(many).y;
+  EXPECT_NEAR(outcome(fast).y, y, 2e-3 * y);
+  EXPECT_GT(outcome(still).y, 1.02 * y);
+}
+
+/// F = 187,953 N/m without friction and 188,214 with μ = 0.6, of the full disk 187,838 and 188,121.
+TEST(RingWheel, AWheelThatStandsIsCrushed) {
+  const auto standing = [](double friction) {
+    return outcome({.modes = 40, .friction = friction, .spin = 0.0, .speed = 0.0, .end = 0.4});
+  };
+  EXPECT_NEAR(standing(0.0).y, 187953.0, 30.0);
+  EXPECT_NEAR(standing(0.6).y, 188214.0, 30.0);
+  EXPECT_NEAR(standing(0.6).x, 0.0, 1.0);
+}
+
+TEST(RingWheel, ALockedWheelSlides) {
+  const Outcome o = outcome({.modes = 40, .friction = 0.3, .spin = 0.0, .speed = 10.0});
+  EXPECT_NEAR(o.x, -0.3 * o.y, 1.0);
+  EXPECT_NEAR(o.y, 187710.0, 60.0);
+}
+
+TEST(RingWheel, ResumesToTheSameBits) {
+  const OneBlasThread one;
+  const Rolling run{
+      .ground = {.profile = {{-10, -0.03}, {1.0, -0.03}, {1.0, 0}, {10, 0}}, .fillet = 0.02}};
+  Wheel whole(disk(), run), first(disk(), run), second(disk(), run);
+  for (int i = 0; i < 260; ++i) {
+    static_cast<void>(whole.wheel.step(whole.motion.at(i)));
+    static_cast<void>(first.wheel.step(first.motion.at(i)));
+  }
+  second.wheel.restore(first.wheel.save());
+  for (int i = 260; i < 400; ++i) {
+    const WheelReport a = whole.wheel.step(whole.motion.at(i)),
+                      b = second.wheel.step(second.motion.at(i));
+    ASSERT_EQ(a.force, b.force) << i;
+    ASSERT_EQ(total(a.energy), total(b.energy)) << i;
+    ASSERT_EQ(a.energy.scheme, b.energy.scheme) << i;
+  }
+}
+
+/// The ledger of a spin that changes, and forwards to backwards through a wheel that stands.
+TEST(RingWheel, TheLedgerClosesWhileTheSpinChanges) {
+  const Outcome o = outcome({.speed = 0.0, .spins = dynamics::Table({{0.0, 20.0}, {0.1, -20.0}})});
+  EXPECT_LE(o.unbalanced, 1e-11 * o.energy);
+  EXPECT_LE(o.residual, 1e-9);
+}
+
+}  // namespace ring_wheel_test
+}  // namespace rondo::rom
