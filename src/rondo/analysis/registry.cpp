@@ -12,6 +12,7 @@
 #include "rondo/analysis/figures/dynamic_figures.hpp"
 #include "rondo/analysis/figures/steady_figures.hpp"
 #include "rondo/analysis/reduced/reduced.hpp"
+#include "rondo/analysis/reduced/wheel.hpp"
 #include "rondo/analysis/steady/steady.hpp"
 
 namespace rondo::study {
@@ -65,7 +66,8 @@ void refuse_modes(const Case& c, const RunOptions& options) {
 
 std::unique_ptr<Analysis> make_analysis(const Case& c, const RunOptions& options) {
   refuse_modes(c, options);
-  return options.reduced.empty() ? type_of(c).make(c, options) : make_reduced(c, options);
+  if (options.reduced.empty()) return type_of(c).make(c, options);
+  return options.reduced == wheel_of_case ? make_wheel(c, options) : make_reduced(c, options);
 }
 
 CheckReport check_case(const Case& c, const CheckOptions& options) {

@@ -37,6 +37,8 @@ struct Setup {
   dynamics::CriticalStep critical;    ///< of the explicit elements; infinite: there are none
   double critical_plain = 0.0;        ///< critical step with all elements explicit, own mass [s]
   long long n_steps = 0;              ///< ceil(end / step); the step is never fitted to the end
+  std::string reduced;                ///< reduced wheel: its modes, in words; empty: the mesh
+  std::size_t saved_numbers = 0;      ///< reduced wheel: size of SavedState::ring
   std::vector<Vec2> prestress;        ///< (n) displacement whose stress stiffens the body [m]
   Field displacement;                 ///< (n) u_0                          [m]
   Field velocity;                     ///< (n) v_0                          [m/s]

@@ -100,6 +100,7 @@ void for_texts(Known& identity, Visit&& visit) {
   visit("/identity/dispatch", identity.dispatch);
   visit("/identity/case", identity.case_text);
   visit("/identity/mesh_hash", identity.mesh_hash);
+  visit("/identity/reduced", identity.reduced);
 }
 
 /// Calls visit(name, value, label) for all single numbers; units are those of a plane body.
@@ -219,8 +220,8 @@ void get_state(const File& file, dynamics::SavedState& s) {
 RunIdentity identity_of(const Case& c, const Setup& setup) {
   RONDO_DEMAND(setup.model.dt > 0.0 && setup.mesh.n_nodes() > 0, setup.model.dt,
                setup.mesh.n_nodes());
-  return {version,       build_id(), dispatch_level(), write_case(c), io::mesh_hash(setup.mesh),
-          setup.model.dt};
+  return {version,       build_id(),    dispatch_level(), write_case(c), io::mesh_hash(setup.mesh),
+          setup.reduced, setup.model.dt};
 }
 
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& k) {

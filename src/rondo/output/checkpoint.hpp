@@ -23,6 +23,7 @@ struct RunIdentity {
   std::string dispatch;   ///< instruction set of the inner loops
   std::string case_text;  ///< as read, all defaults written out
   std::string mesh_hash;  ///< of nodes, cells, boundary, because a mesh file may change
+  std::string reduced;    ///< Setup::reduced
   double step = 0.0;      ///< Δt [s]
 };
 

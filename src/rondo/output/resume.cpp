@@ -106,6 +106,10 @@ void compare_cases(const Checkpoint& k, const Case& c, const Setup& setup,
           differs(key, "nothing", "the run to resume has a value", then.written(value.place)));
 }
 
+std::string in_words(const std::string& reduced) {
+  return reduced.empty() ? "the mesh" : reduced;
+}
+
 void compare_programs(const RunIdentity& then, const RunIdentity& now, std::vector<Fault>& faults) {
   const auto compare = [&](const char* what, const std::string& a, const std::string& b,
                            const std::string& to_do) {
@@ -151,6 +155,9 @@ bool fits(const Field& field, std::size_t points, const dynamics::Model& model) 
 
 /// Whether the state has exactly what the integrator of this model carries.
 bool fits(const dynamics::SavedState& s, const Setup& setup) {
+  if (setup.saved_numbers > 0)
+    return s.ring.size() == setup.saved_numbers && std::ranges::all_of(s.ring, is_finite) &&
+           s.u.empty() && s.v.empty() && s.step > 0;
   const dynamics::Model& model = setup.model;
   const std::size_t n = model.n_nodes(), n_free = model.free_bodies.size();
   const bool parts = model.subdomains.has_value();
@@ -209,6 +216,11 @@ void demand_same_program(const RunIdentity& then, const RunIdentity& now) {
 void demand_same_run(const Checkpoint& k, const RunIdentity& now, const Case& c,
                      const Setup& setup) {
   std::vector<Fault> faults;
+  if (k.identity.reduced != now.reduced)
+    faults.push_back(
+        differs("--reduced", in_words(now.reduced),
+                fmt::format("the run to resume is one of {}", in_words(k.identity.reduced)),
+                "the same --reduced, --modes and --reduced-step"));
   compare_cases(k, c, setup, faults);
   if (faults.empty() && k.identity.mesh_hash != now.mesh_hash)
     faults.push_back(differs(c.section ? "section.file" : "mesh.file",

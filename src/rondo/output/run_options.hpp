@@ -4,6 +4,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace rondo::study {
 struct SharedBody;
 
 enum class RunStatus { done, interrupted, failed };
+
+/// In place of a file of RunOptions::reduced.
+inline constexpr const char* wheel_of_case = "case";
 
 struct RunOptions {
   std::filesystem::path directory;
@@ -27,9 +31,11 @@ struct RunOptions {
   std::function<void(const std::string&)> warn;  ///< receives warnings; may be empty
   SharedBody* shared = nullptr;                  ///< see build()
   bool keeps_checkpoint = true;                  ///< of its end, once it has finished
-  std::filesystem::path reduced;                 ///< reduced model to use; empty: the mesh
-  double step_factor = 20.0;                     ///< reduced: its step / step of the full run
-  std::string reduced_step = "midpoint";         ///< reduced: or "explicit"
+  /// Reduced model to use; wheel_of_case: one made of the case; empty: the mesh.
+  std::filesystem::path reduced;
+  std::optional<long long> reduced_modes;    ///< of a wheel of the case; none: chosen
+  double step_factor = 20.0;                 ///< reduced: its step / step of the full run
+  std::string reduced_step = "midpoint";     ///< reduced: or "explicit"; or a number [s]
   std::string reduced_snapshots = "fields";  ///< reduced: or "modes", fields computed on reading
   std::filesystem::path modes_from;  ///< run whose modes start a crush by LATIN-PGD; or empty
   std::string modes_told;            ///< its name in run.json; empty: modes_from

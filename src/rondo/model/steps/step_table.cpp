@@ -40,6 +40,7 @@ constexpr std::array names{
     FeatureName{has::other_scheme, "scheme other than \"symplectic\""},
     FeatureName{has::hati | has::other_scheme, "scheme \"hati\""},
     FeatureName{has::reduced, "reduced model"},
+    FeatureName{has::exact_wheel | has::reduced, "reduced wheel of the case"},
 };
 
 constexpr std::array steps{
@@ -192,8 +193,18 @@ constexpr std::array limits{
           "a reduced run is computed at small strain, rubber at finite strain"},
     Limit{has::own_material, has::reduced, any, "a reduced run needs linear materials"},
     Limit{has::implicit, has::reduced, any, "a reduced run has modes instead of elements"},
-    Limit{has::massless, has::reduced, any, "a reduced run needs contact nodes with mass"},
+    Limit{has::massless, has::reduced, any,
+          "a reduced run itself decides whether contact nodes have mass"},
     Limit{has::other_scheme, has::reduced, any, "a reduced run has a scheme of its own"},
+    Limit{has::loaded_rim, has::exact_wheel, any,
+          "the rim of a reduced wheel of the case follows its tables"},
+    Limit{has::restitution, has::exact_wheel, any,
+          "contact nodes of a reduced wheel of the case have no mass, hence no restitution"},
+    Limit{has::energy_safe, has::exact_wheel, any,
+          "ground.impact = \"energy-safe\" is a law of velocities, and that of a reduced wheel of "
+          "the case is one of gaps"},
+    Limit{has::friction_law, has::exact_wheel, any,
+          "a reduced wheel of the case has one coefficient of friction"},
 };
 
 }  // namespace

@@ -41,6 +41,7 @@ enum Feature : Features {
   hati = 1U << 19,               ///< sets other_scheme as well
   reduced = 1U << 20,            ///< a run of a reduced model
   friction_law = 1U << 21,       ///< friction that is no constant
+  exact_wheel = 1U << 22,        ///< a reduced wheel made of the case; sets reduced as well
 };
 }  // namespace has
 

@@ -15,7 +15,7 @@ Option last_time(std::optional<double>& to) {
 }
 
 constexpr OtherOption reduced_run{"--reduced", "reduced", "is an option of a reduced run",
-                                  "with reduced = a model of rondo.reduce"};
+                                  "with reduced = 'case', or a model of rondo.reduce"};
 constexpr OtherOption not_overwrite{"--overwrite", "overwrite",
                                     "continues what overwrite would remove", "one of the two"};
 
@@ -43,8 +43,20 @@ Options run_options(RunOptions& r) {
       {"--modes-from", "modes_from", &r.modes_from,
        "Results directory of a run of the same body; a crush by analysis.solver = latin-pgd begins "
        "with the modes of this run"},
-      {"--reduced", "reduced", &r.reduced,
-       "Uses the modes of this model (rondo reduce) instead of the mesh; docs/reduced.md"},
+      {.words = "--reduced",
+       .python = "reduced",
+       .target = &r.reduced,
+       .help = "Runs a reduced wheel instead of the mesh: one made of the case, or the model in "
+               "this file (rondo reduce); docs/reduced.md",
+       .in_python = "`case`: runs a reduced wheel made of the case instead of the mesh; a file: "
+                    "runs this model of rondo.reduce",
+       .alone = wheel_of_case},
+      {.words = "--modes",
+       .python = "modes",
+       .target = &r.reduced_modes,
+       .help =
+           "Number of modes of a reduced wheel made of the case; chosen by its step if left out",
+       .needs = reduced_run},
       {.words = "--step-factor",
        .python = "step_factor",
        .target = &r.step_factor,
@@ -53,8 +65,9 @@ Options run_options(RunOptions& r) {
       {.words = "--reduced-step",
        .python = "reduced_step",
        .target = &r.reduced_step,
-       .help = "Implicit or central-difference scheme of a reduced run",
-       .choices = "midpoint | explicit",
+       .help = "Scheme of the step of a model; of a wheel made of the case its step in seconds, "
+               "chosen by spin and contact if left out",
+       .choices = "midpoint | explicit | SECONDS",
        .needs = reduced_run},
       {.words = "--snapshots",
        .python = "snapshots",

@@ -44,6 +44,7 @@ struct Option {
   std::string_view in_python = {};  ///< help in Python, if it differs
   std::optional<OptionRange> range = {};
   std::optional<OtherOption> needs = {}, excludes = {};
+  std::string_view alone = {};  ///< value of the option without one; empty: it needs one
 };
 
 using Options = std::vector<Option>;

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  `rondo run --reduced` without a model: a reduced wheel with exact contact, made of the
+/// case itself (docs/reduced.md).
+#pragma once
+#include <memory>
+
+#include "rondo/analysis/base/analysis.hpp"
+
+namespace rondo::study {
+
+/// @throws InputError: what a reduced wheel cannot do, or options that do not go with it
+[[nodiscard]] std::unique_ptr<Analysis> make_wheel(const Case& c, const RunOptions& options);
+
+/// Members of its run.json, besides dynamic_members().
+std::vector<MemberText> wheel_members();
+
+}  // namespace rondo::study

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/rom/wheel_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
+
+namespace rondo::rom {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+WheelSettings settings_of(const dynamics::Model& model, const WheelOptions& options) {
+  return {model.dt,
+          model.mass_damping,
+          model.stiffness_damping,
+          model.contact ? model.contact->law.friction.constant() : 0.0,
+          options.theta,
+          options.slip};
+}
+
+}  // namespace
+
+Ring ring_of(const dynamics::Model& model) {
+  RONDO_DEMAND(model.sector && model.contact);
+  return make_ring(*model.sector, model.mass, model.reference, model.contact->nodes);
+}
+
+/// One table for a spin that stays; else three between 0 and the largest, where a polynomial in s²
+/// errs least (Chebyshev).
+WheelModel make_wheel_model(const Ring& ring, const dynamics::Motion& motion,
+                            const WheelOptions& options) {
+  const OneBlasThread one;
+  WheelModel wheel;
+  wheel.harmonics = ring_modes(ring, options.modes);
+  for (const Complex x : ring.place) wheel.radius = std::max(wheel.radius, std::hypot(x.re, x.im));
+  const double most = std::pow(motion.angular_velocity.largest(), 2);
+  if (motion.angular_velocity.points().size() == 1) {
+    wheel.squares = {most};
+  } else {
+    for (int i = 0; i < 3; ++i)
+      wheel.squares.push_back(0.5 * most * (1.0 - std::cos(std::numbers::pi * (2 * i + 1) / 6.0)));
+  }
+  for (const double square : wheel.squares)
+    wheel.residuals.push_back(ring_residual(ring, wheel.harmonics, square, options.form));
+  return wheel;
+}
+
+WheelRun::WheelRun(const dynamics::Model& model, const Ring& ring, const WheelModel& wheel,
+                   const WheelOptions& options, WheelFigures& figures,
+                   const dynamics::State& at_start)
+    : model_(model),
+      ring_(ring),
+      figures_(figures),
+      candidate_(model.n_nodes(), -1),
+      wheel_(ring, wheel.harmonics, wheel.residuals, wheel.squares, model.contact->ground,
+             wheel.radius, settings_of(model, options)) {
+  RONDO_DEMAND(model.dt > 0.0 && !model.rim, model.dt);
+  for (std::size_t i = 0; i < model.contact->nodes.size(); ++i)
+    candidate_[at(model.contact->nodes[i])] = static_cast<int>(i);
+  active_.reserve(model.contact->nodes.size());
+  WheelMotion start = motion_of(0);
+  start.angle_next = start.angle;
+  start.center_next = start.center;
+  start.spin_next = -model.motion.angular_velocity.at(0.0);
+  start.spin_rate = 0.0;
+  wheel_.start(start, at_start.u, at_start.v);
+  frame_ = dynamics::frame_step(model.motion, 0, model.dt);
+  const WheelEnergy of = wheel_.energy_at_start();
+  dynamics::StepEnergy energy;
+  energy.kinetic = of.kinetic;
+  energy.strain = of.elastic;
+  ledger_.compare(energy);
+}
+
+/// Kinks of the motion are spread over the step that ends there.
+WheelMotion WheelRun::motion_of(long long step) const {
+  const dynamics::Motion& of = model_.motion;
+  const double dt = model_.dt, t = static_cast<double>(step) * dt,
+               end = static_cast<double>(step + 1) * dt;
+  WheelMotion m;
+  m.angle = of.angle(t);
+  m.angle_next = of.angle(end);
+  m.spin_next = -of.angular_velocity.at(end);
+  m.spin_rate = -of.angular_velocity.change(t, dt) / dt;
+  m.center_next = of.center(end).plane();
+  m.center = m.center_next - of.advance(t, dt).plane();
+  m.pull = (of.advance(t, dt) - of.advance(t - dt, dt)).plane() / (dt * dt) -
+           of.gravity_at(t + 0.5 * dt);
+  return m;
+}
+
+int WheelRun::node_of(int contact_node) const noexcept {
+  const auto n = static_cast<int>(ring_.contact.size());
+  return static_cast<int>(
+      ring_.stiffness.node(at(ring_.contact[at(contact_node % n)]), at(contact_node / n)));
+}
+
+void WheelRun::report_contact(const WheelReport& wheel, dynamics::ContactReport& report) const {
+  const double dt = model_.dt;
+  report.impulse = dt * wheel.force;
+  report.angular_impulse = dt * wheel.torque;
+  report.free_velocity = wheel.free / dt;
+  report.residual = wheel.law_residual * report.free_velocity;
+  report.clusters = wheel.candidates > 0 ? 1 : 0;
+  report.clusters_not_converged = wheel.law_residual > 1e-9 ? 1 : 0;
+  report.cluster_largest = wheel.candidates;
+  report.cluster_iterations = wheel.iterations;
+  for (const WheelContact& c : wheel.contacts) {
+    ++report.nodes;
+    report.sticking += c.status == contact::Status::stick ? 1 : 0;
+    report.length += model_.contact->tributary[at(candidate_[at(node_of(c.node))])];
+    report.penetration = std::max(report.penetration, -c.gap);
+  }
+  report.dissipation_friction = wheel.energy.friction;
+  report.loss_impact = wheel.energy.arrival;
+  report.work_rim = -wheel.energy.rim;
+  report.work = report.work_rim - report.dissipation_friction - report.loss_impact;
+}
+
+void WheelRun::step(dynamics::StepReport& report) {
+  const auto begin = Clock::now();
+  const WheelReport wheel = wheel_.step(motion_of(n_));
+  ++n_;
+  frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);
+  report = {};
+  report.step = n_;
+  report.frame = frame_;
+  report_contact(wheel, report.contact);
+  dynamics::Works works;
+  dynamics::set_contact_works(report.contact, works);
+  works.frame = wheel.energy.frame;
+  works.dissipation_mass = wheel.energy.by_mass;
+  works.dissipation_stiffness = wheel.energy.by_stiffness + wheel.energy.by_residual;
+  works.scheme = wheel.energy.scheme;
+  dynamics::StepEnergy energy;
+  energy.kinetic = wheel.energy.kinetic;
+  energy.strain = wheel.energy.elastic + wheel.energy.residual;
+  ledger_.add_works(works);
+  ledger_.compare(energy);
+  report.balance = ledger_.last();
+  active_.clear();
+  for (const WheelContact& c : wheel.contacts) {
+    dynamics::ActiveContact a;
+    a.candidate = at(candidate_[at(node_of(c.node))]);
+    a.normal = c.normal;
+    a.gap = c.gap;
+    a.impulse = model_.dt * to_frame(c.normal, c.force);
+    a.status = c.status;
+    active_.push_back(a);
+  }
+  std::ranges::sort(active_, {}, &dynamics::ActiveContact::candidate);
+  if (wheel.candidates > 0) ++figures_.contact_steps;
+  figures_.iterations += wheel.iterations;
+  figures_.iterations_max = std::max(figures_.iterations_max, wheel.iterations);
+  figures_.contacts_max = std::max(figures_.contacts_max, report.contact.nodes);
+  figures_.pivoted += wheel.pivoted ? 1 : 0;
+  figures_.not_converged += report.contact.clusters_not_converged;
+  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+  figures_.wall_s += seconds;
+  figures_.slowest_step_s = std::max(figures_.slowest_step_s, seconds);
+}
+
+void WheelRun::fill(dynamics::State& state) const {
+  state.step = n_;
+  state.frame = frame_;
+  wheel_.displacement(frame_.angle, state.v.empty(), state.u);
+  state.active = active_;
+  const double middle = frame_.angle - 0.5 * frame_.turn_before;
+  if (!state.v.empty()) wheel_.velocity(middle, state.v);
+  if (!state.v_next.empty()) state.v_next = state.v;
+}
+
+void WheelRun::advance(std::span<dynamics::StepReport> reports, dynamics::State* last) noexcept {
+  RONDO_DEMAND(!reports.empty());
+  for (dynamics::StepReport& report : reports) step(report);
+  if (last) fill(*last);
+}
+
+void WheelRun::fields(dynamics::State& state) const noexcept {
+  wheel_.displacement(frame_.angle, false, state.u);
+  wheel_.velocity(frame_.angle - 0.5 * frame_.turn_before, state.v_next);
+}
+
+dynamics::SavedState WheelRun::save() const {
+  dynamics::SavedState saved;
+  saved.step = n_;
+  saved.ring = wheel_.save();
+  saved.ledger = ledger_.save();
+  return saved;
+}
+
+void WheelRun::restore(const dynamics::SavedState& saved) {
+  n_ = saved.step;
+  wheel_.restore(saved.ring);
+  ledger_.restore(saved.ledger);
+  frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);
+}
+
+}  // namespace rondo::rom

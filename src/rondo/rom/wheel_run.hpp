@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The steps of a reduced wheel with exact contact (wheel/ring_wheel.hpp) with the interface
+/// of a full run, on a rim that follows its tables.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "rondo/core/process_wide.hpp"
+#include "rondo/model/integrator.hpp"
+#include "rondo/rom/wheel/ring_wheel.hpp"
+
+namespace rondo::rom {
+
+struct WheelOptions {
+  ModeChoice modes;
+  ResidualForm form = ResidualForm::convected;
+  double theta = 0.6;
+  SlipRule slip = SlipRule::anchored;
+};
+
+/// What the steps of a wheel need that is found once.
+struct WheelModel {
+  std::vector<RingHarmonic> harmonics;
+  std::vector<double> squares;          ///< s² of the residuals: one, or three [1/s²]
+  std::vector<RingResidual> residuals;  ///< at these
+  double radius = 0.0;                  ///< largest |X| [m]
+};
+
+/// Effort of the steps so far.
+struct WheelFigures {
+  long long contact_steps = 0;
+  long long iterations = 0;  ///< of the contact law, all steps
+  int iterations_max = 0, contacts_max = 0;
+  long long pivoted = 0;        ///< steps in which Newton's method did not end
+  long long not_converged = 0;  ///< steps whose contact law is not met to 1e-9
+  double wall_s = 0.0, slowest_step_s = 0.0;
+};
+
+/// @param model with `sector` and a contact without mass: its masses are 0 at contact nodes
+[[nodiscard]] Ring ring_of(const dynamics::Model& model);
+[[nodiscard]] WheelModel make_wheel_model(const Ring& ring, const dynamics::Motion& motion,
+                                          const WheelOptions& options);
+
+class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
+ public:
+  /// All but the state must outlive it. @param model dt: that of the reduced step
+  /// @param at_start u and v at t = 0, co-rotating frame; what is outside of the modes is lost
+  WheelRun(const dynamics::Model& model, const Ring& ring, const WheelModel& wheel,
+           const WheelOptions& options, WheelFigures& figures, const dynamics::State& at_start);
+
+  void advance(std::span<dynamics::StepReport> reports,
+               dynamics::State* last = nullptr) noexcept override;
+  void fields(dynamics::State& state) const noexcept override;
+  [[nodiscard]] Resumable* resumable() noexcept override { return this; }
+  [[nodiscard]] dynamics::SavedState save() const override;
+  void restore(const dynamics::SavedState& saved) override;
+  /// Size of SavedState::ring.
+  [[nodiscard]] std::size_t n_numbers() const noexcept { return wheel_.n_numbers(); }
+
+ private:
+  [[nodiscard]] WheelMotion motion_of(long long step) const;
+  void step(dynamics::StepReport& report);
+  void report_contact(const WheelReport& wheel, dynamics::ContactReport& report) const;
+  [[nodiscard]] int node_of(int contact_node) const noexcept;
+  void fill(dynamics::State& state) const;
+
+  const OneBlasThread one_blas_thread_;  ///< products are too small for more
+  const dynamics::Model& model_;
+  const Ring& ring_;
+  WheelFigures& figures_;
+  std::vector<int> candidate_;  ///< (n) place among the candidates; -1: none
+  RingWheel wheel_;
+  dynamics::Ledger ledger_;
+  long long n_ = 0;  ///< number of steps made
+  dynamics::FrameStep frame_;
+  std::vector<dynamics::ActiveContact> active_;
+};
+
+}  // namespace rondo::rom

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo run --reduced without a model: a reduced wheel with exact contact, made of the case."""
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from program import PROGRAM, ROOT, ProgramTest, history, replaced, run, summary
+
+STEADY = (ROOT / "cases" / "steady-rolling.toml").read_text()
+# The disk of that case, lowered in 0.02 s.
+ROLLING = replaced(replaced(replaced(
+    STEADY, "height", "height = [[0, 0.31], [0.02, 0.29]]"), "kind", 'kind = "dynamic"'),
+    "angular_velocity", "angular_velocity = 33.333333333333333") + """
+[time]
+end = 0.2
+[output]
+snapshots = 11
+"""
+
+
+def mean(rows, name, since=0.15):
+    late = np.asarray(rows["time_s"]) > since
+    return float(np.mean(np.asarray(rows[name])[late]))
+
+
+class Wheel(ProgramTest):
+    def wheel(self, *arguments, case=ROLLING, code=0, out="out"):
+        out = self.folder / out
+        done = run("run", self.case(case), "--reduced", "-o", out, *arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return out, done
+
+    def test_forces_are_those_of_steady_rolling(self):
+        """Means over the pass of a sector of the full disk, by the steady solver; see there."""
+        for friction, x, y in ((0.2, -18294, 189915), (0.4, -22044, 190098), (0.6, -23293, 190234)):
+            out, _ = self.wheel("--set", f"ground.friction={friction}", "--overwrite")
+            rows = history(out)
+            self.assertAlmostEqual(mean(rows, "force_x") / y, x / y, delta=0.002, msg=str(friction))
+            self.assertAlmostEqual(mean(rows, "force_y") / y, 1.0, delta=0.001, msg=str(friction))
+        s = summary(out)
+        self.assertLess(s["energy_residual_relative"], 1e-11)
+        self.assertGreaterEqual(s["wheel_modes"], 10)
+        self.assertLess(s["wheel"]["contact_iterations_mean"], 3.0)
+        self.assertEqual(s["wheel"]["steps_not_converged"], 0)
+
+    def test_more_modes_change_little(self):
+        few, _ = self.wheel("--modes", 11, "--reduced-step", "0.0004", out="few")
+        many, _ = self.wheel("--modes", 91, "--reduced-step", "0.0002", out="many")
+        self.assertEqual(summary(few)["wheel_modes"], 11)
+        self.assertEqual(summary(many)["wheel_modes"], 91)
+        y = mean(history(many), "force_y")
+        self.assertAlmostEqual(mean(history(few), "force_y") / y, 1.0, delta=0.001)
+        self.assertAlmostEqual(mean(history(few), "force_x") / y,
+                               mean(history(many), "force_x") / y, delta=0.003)
+
+    def test_fields_are_of_all_nodes(self):
+        """Where they touch, nodes are on the ground; the field between is that of the full run."""
+        out, _ = self.wheel("--modes", 91)
+        with h5py.File(out / "results.h5") as f:
+            u, angle = f["/snapshots/displacement"][-1], f["/frame/angle"][-1]
+            x = f["/mesh/nodes"][:] if "/mesh/nodes" in f else f["/mesh/coordinates"][:]
+            center = f["/frame/center"][-1]
+        place = x + u
+        height = center[1] + np.sin(angle) * place[:, 0] + np.cos(angle) * place[:, 1]
+        self.assertGreater(height.min(), -1e-9)
+        self.assertGreaterEqual(np.count_nonzero(height < 1e-9), 8)
+
+    def test_it_resumes_to_the_same_bits(self):
+        case = replaced(ROLLING, "end", "end = 4.0")
+        self.wheel("--quiet", case=case, out="whole")
+        out = self.folder / "out"
+        command = [PROGRAM, "run", str(self.case(case)), "--reduced", "-o", str(out), "--resume",
+                   "--quiet"]
+        for rows in (300, 3000):
+            process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+            while process.poll() is None:
+                done = out / "history.csv"
+                if done.exists() and done.read_bytes().count(b"\n") > rows:
+                    break
+                time.sleep(0.002)
+            self.assertIsNone(process.poll(), "the run was over too soon")
+            process.send_signal(signal.SIGTERM)
+            process.wait()
+            self.assertEqual(summary(out)["status"], "interrupted")
+        done = run("run", self.case(case), "-o", out, "--resume")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("the run to resume is one of a reduced wheel of", done.stderr)
+        done = run(*command[1:-1], "--modes", 12)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("the same --reduced, --modes and --reduced-step", done.stderr)
+        self.assertEqual(run(*command[1:]).returncode, 0)
+        for name in ("history.csv", "contact.csv"):
+            self.assertEqual((self.folder / "whole" / name).read_bytes(),
+                             (out / name).read_bytes(), name)
+        with h5py.File(self.folder / "whole" / "results.h5") as a, h5py.File(
+                out / "results.h5") as b:
+            for name in ("/snapshots/displacement", "/snapshots/velocity"):
+                np.testing.assert_array_equal(a[name][:], b[name][:])
+
+    def test_a_spin_that_changes(self):
+        """From braked to driven: the ledger closes, and the force turns round."""
+        case = replaced(ROLLING, "angular_velocity",
+                        "angular_velocity = [[0.1, 33.333333333333333], [0.15, 38.0]]")
+        out, _ = self.wheel(case=case)
+        rows = history(out)
+        self.assertLess(summary(out)["energy_residual_relative"], 1e-11)
+        early = (np.asarray(rows["time_s"]) > 0.05) & (np.asarray(rows["time_s"]) < 0.1)
+        self.assertLess(np.asarray(rows["force_x"])[early].mean(), -15000)
+        self.assertGreater(mean(rows, "force_x", 0.18), 15000)
+
+    def test_what_it_refuses(self):
+        def refused(text, *settings, case=ROLLING, options=()):
+            arguments = [word for s in settings for word in ("--set", s)]
+            _, done = self.wheel(*arguments, *options, case=case, code=2)
+            self.assertIn(text, done.stderr)
+
+        refused("follows its tables", case=replaced(ROLLING, "height", "height = 0.31") +
+                '[rim]\nfree = ["height"]\nmass = 100\ninertia = 1\n')
+        refused("no restitution", "ground.restitution=0.5")
+        refused("is a law of velocities", 'ground.impact="energy-safe"')
+        refused("not for a wheel in three dimensions",
+                case=(ROOT / "cases" / "wheel3d-cornering.toml").read_text())
+        refused("there is no ground", case=ROLLING.replace(
+            '[ground]\nprofile = "flat"\nfriction = 0.4\n', ""))
+        refused("is no step of a reduced wheel", options=("--reduced-step", "-1"))
+        refused("is no step of a reduced wheel", options=("--reduced-step", "explicit"))
+        refused("is no number of modes", options=("--modes", "-3"))
+        refused("--reduced-step, in seconds", options=("--step-factor", "30"))
+
+    def test_what_it_warns_of(self):
+        _, done = self.wheel("--reduced-step", "0.002", "--modes", 91)
+        for text in ("turns by", "a step moves by", "steps in the pass of a sector"):
+            self.assertIn(text, done.stderr)
+        _, done = self.wheel("--set", "disk.mesh.circumferential=40", "--overwrite")
+        self.assertIn("contact has", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
