@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Random predictions of reduced models inside their range against full runs: errors, nodes in contact,
-and what `rondo reduce` estimated them to be.
+and what `rondo reduce` estimated them to be. With --wheel those of reduced wheels made of the case,
+which need no other runs.
 
-    /usr/bin/python3 bench/reduced_random.py [--meshes 12x180,6x90] [--points 12] [--seed 1]
+    /usr/bin/python3 bench/reduced_random.py [--meshes 12x180,6x90] [--points 12] [--seed 1] [--wheel]
         [--reduce "--displacement-modes 45"] [--run "--step-factor 10"] [--folder DIR] [--program FILE]
 
 Eight runs teach each model: half of the corners of friction 0.1 to 0.6, height 0.285 to 0.295 m, speed
@@ -78,15 +79,18 @@ def full_runs(options, mesh, folder, points, words):
 def predict(options, mesh, folder, name):
     points = inside(options.points, options.seed)
     held = full_runs(options, mesh, folder, points, ["--set", "output.snapshots=0"])
-    taught = full_runs(options, mesh, folder, list(corners()), [])
-    model = folder / f"model{name}.h5"
-    rondo(options.program, "reduce", *taught, "-o", model, *options.reduce.split())
-    factor = round(20 * int(mesh.split("x")[1]) / 180)
+    if options.wheel:
+        words = ["--reduced", "case"]
+    else:
+        taught = full_runs(options, mesh, folder, list(corners()), [])
+        model = folder / f"model{name}.h5"
+        rondo(options.program, "reduce", *taught, "-o", model, *options.reduce.split())
+        words = ["--reduced", model, "--step-factor", round(20 * int(mesh.split("x")[1]) / 180)]
     found = []
     for point, full in zip(points, held):
         out = folder / f"reduced{name}"
-        rondo(options.program, "run", CASE, "-o", out, "--overwrite", "--reduced", model, "--step-factor",
-              factor, *settings(point, mesh), "--set", "output.snapshots=0", *options.run.split())
+        rondo(options.program, "run", CASE, "-o", out, "--overwrite", *words, *settings(point, mesh),
+              "--set", "output.snapshots=0", *options.run.split())
         (fx, fy, nodes), (x, y, _) = means(full), means(out)
         estimate = json.loads((out / "run.json").read_text()).get("reduced_error_estimate")
         found.append((100 * (x - fx) / fy, 100 * (y - fy) / fy, estimate))
@@ -114,6 +118,7 @@ def main():
     parser.add_argument("--meshes", default="12x180,6x90")
     parser.add_argument("--points", type=int, default=12)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--wheel", action="store_true", help="reduced wheels made of the case")
     parser.add_argument("--reduce", default="", help="options of rondo reduce")
     parser.add_argument("--run", default="", help="options of the reduced runs")
     parser.add_argument("--name", default="", help="of the model and reduced runs in --folder")

@@ -132,9 +132,10 @@ int run(RunArguments arguments, Telling& tell) {
   return finish(report, options.directory, tell);
 }
 
-int check(const CaseArguments& arguments, int threads, Telling& tell) {
+int check(const RunArguments& arguments, Telling& tell) {
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
-  const study::CheckReport r = study::check_case(c, {.threads = threads});
+  const study::CheckReport r =
+      study::check_case(c, {.threads = arguments.options.threads, .run = &arguments.options});
   for (const std::string& warning : r.warnings) spdlog::warn(warning);
   if (tell.json)
     tell.result = check_document(c, r);

@@ -44,7 +44,7 @@ struct SweepArguments {
 
 int run(RunArguments arguments, Telling& tell);
 /// @param threads 0: chosen by size
-int check(const CaseArguments& arguments, int threads, Telling& tell);
+int check(const RunArguments& arguments, Telling& tell);
 int pod(study::PodRequest request, Telling& tell);
 int reduce(study::ReduceRequest request, Telling& tell);
 int fmu(const study::FmuRequest& request, Telling& tell);

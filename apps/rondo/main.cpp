@@ -53,10 +53,9 @@ void demand_command(CLI::App& program, const std::string& name) {
 }
 
 int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tell) {
-  int check_threads = 0;
   std::string schema_of;
   app::RunArguments run_arguments;
-  app::CaseArguments check_arguments;
+  app::RunArguments check_arguments;
   study::PodRequest pod_request;
   study::ReduceRequest reduce_request;
   study::FmuRequest fmu_request;
@@ -64,7 +63,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   app::SweepArguments sweep_arguments;
   app::ReportArguments report_arguments;
   const CLI::App* run = app::add_run(program, run_arguments, tell);
-  const CLI::App* check = app::add_check(program, check_arguments, check_threads, tell);
+  const CLI::App* check = app::add_check(program, check_arguments, tell);
   const CLI::App* pod = app::add_pod(program, pod_request, tell);
   const CLI::App* reduce = app::add_reduce(program, reduce_request, tell);
   const CLI::App* fmu = app::add_fmu(program, fmu_request, tell);
@@ -81,7 +80,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
     return parse_failure(program, error, tell);
   }
   if (run->parsed()) return app::run(run_arguments, tell);
-  if (check->parsed()) return app::check(check_arguments, check_threads, tell);
+  if (check->parsed()) return app::check(check_arguments, tell);
   if (pod->parsed()) return app::pod(pod_request, tell);
   if (reduce->parsed()) return app::reduce(reduce_request, tell);
   if (fmu->parsed()) return app::fmu(fmu_request, tell);

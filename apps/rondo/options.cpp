@@ -80,13 +80,18 @@ CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell) {
   return run;
 }
 
-CLI::App* add_check(CLI::App& program, CaseArguments& arguments, int& threads, Telling& tell) {
+CLI::App* add_check(CLI::App& program, RunArguments& arguments, Telling& tell) {
   CLI::App* check = program.add_subcommand(
       "check", "Validates a case and estimates its cost; runs nothing, writes nothing");
   add_case(*check, arguments);
-  add_option(*check, study::threads_option(threads));
+  for (const study::Option& option : study::run_options(arguments.options))
+    for (const std::string_view words :
+         {"--threads,--jobs", "--reduced", "--modes", "--reduced-step"})
+      if (option.words == words) add_option(*check, option);
   add_json(*check, tell);
-  check->footer("Example:\n  rondo check cases/ledge-smooth.toml --set disk.mesh.radial=24");
+  check->footer(
+      "Examples:\n  rondo check cases/ledge-smooth.toml --set disk.mesh.radial=24\n"
+      "  rondo check cases/ledge-smooth.toml --reduced");
   return check;
 }
 

@@ -19,7 +19,7 @@ inline std::string refuse_empty(const std::string& text) {
 // These functions add a command to the program. The arguments are filled by parsing and must
 // outlive it.
 CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell);
-CLI::App* add_check(CLI::App& program, CaseArguments& arguments, int& threads, Telling& tell);
+CLI::App* add_check(CLI::App& program, RunArguments& arguments, Telling& tell);
 CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell);
 CLI::App* add_fmu(CLI::App& program, study::FmuRequest& r, Telling& tell);
 CLI::App* add_pod(CLI::App& program, study::PodRequest& r, Telling& tell);

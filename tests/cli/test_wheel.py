@@ -131,6 +131,17 @@ class Wheel(ProgramTest):
         refused("is no number of modes", options=("--modes", "-3"))
         refused("--reduced-step, in seconds", options=("--step-factor", "30"))
 
+    def test_check_tells_modes_and_step(self):
+        done = run("check", self.case(ROLLING), "--reduced", "--modes", 20)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"integrator +reduced wheel with exact contact")
+        self.assertRegex(done.stdout, r"modes +20, up to 1937\.4 rad/s")
+        self.assertRegex(done.stdout, r"steps in a pass +2\.618")
+        done = run("check", self.case(ROLLING), "--reduced", "--reduced-step", "0.003")
+        self.assertIn("a step moves by", done.stderr)
+        done = run("check", self.case(ROLLING), "--modes", 20)
+        self.assertEqual(done.returncode, 2)
+
     def test_what_it_warns_of(self):
         _, done = self.wheel("--reduced-step", "0.002", "--modes", 91)
         for text in ("turns by", "a step moves by", "steps in the pass of a sector"):

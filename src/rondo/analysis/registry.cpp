@@ -71,7 +71,7 @@ std::unique_ptr<Analysis> make_analysis(const Case& c, const RunOptions& options
 }
 
 CheckReport check_case(const Case& c, const CheckOptions& options) {
-  RunOptions run;
+  RunOptions run = options.run ? *options.run : RunOptions{};
   run.threads = options.threads;
   run.shared = options.shared;
   const std::unique_ptr<Analysis> analysis = make_analysis(c, run);

@@ -29,10 +29,11 @@ struct AnalysisType {
 [[nodiscard]] std::unique_ptr<Analysis> make_analysis(const Case& c, const RunOptions& options);
 
 struct CheckOptions {
-  int threads = 0;               ///< 0: chosen by size
-  double trial_s = 0.2;          ///< time for steps to estimate `seconds`; 0: none, seconds = 0
-  SharedBody* shared = nullptr;  ///< shared body, as for build()
-  bool columns = false;          ///< those of history.csv are wanted
+  int threads = 0;                  ///< 0: chosen by size
+  double trial_s = 0.2;             ///< time for steps to estimate `seconds`; 0: none, seconds = 0
+  SharedBody* shared = nullptr;     ///< shared body, as for build()
+  bool columns = false;             ///< those of history.csv are wanted
+  const RunOptions* run = nullptr;  ///< a run with these, e.g. `reduced`; null: of the mesh
 };
 
 /// The cost of a case and whether it can run, without running it. @throws InputError as a run

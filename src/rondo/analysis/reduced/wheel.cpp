@@ -250,11 +250,11 @@ class WheelAnalysis final : public DynamicAnalysis {
     const double dt = setup().model.dt;
     r.lines.emplace_back("modes",
                          fmt::format("{}, up to {:.5g} rad/s", wheel_.n_modes(), wheel_.highest()));
-    r.lines.emplace_back(
-        "step", fmt::format("{:.4g} s, {:.3g} of the full run", dt, dt / wheel_.full_step));
+    r.lines.emplace_back("step of the mesh", fmt::format("{:.4g} s, 1/{:.3g} of it",
+                                                         wheel_.full_step, dt / wheel_.full_step));
     if (wheel_.expected.pass > 0.0)
-      r.lines.emplace_back("steps in the pass of a sector",
-                           fmt::format("{:.4g}", wheel_.passes(dt)));
+      r.lines.emplace_back("steps in a pass",
+                           fmt::format("{:.4g}, of a sector", wheel_.passes(dt)));
     return r;
   }
   [[nodiscard]] std::vector<std::string> warnings() const override {

@@ -159,7 +159,7 @@ class RingChunk {
     return RingLayout::lead + row * layout_.row_size() + field * layout_.stride;
   }
   [[nodiscard]] std::size_t lanes_of_group() const noexcept {
-    return static_cast<std::size_t>(layout_.n_sums * kernels::lanes);
+    return static_cast<std::size_t>(layout_.n_sums) * std::size_t{kernels::lanes};
   }
   [[nodiscard]] std::array<int, 3> edge_fields() const noexcept {
     return {field_now(), field_v, field_force};

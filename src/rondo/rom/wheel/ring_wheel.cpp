@@ -204,8 +204,8 @@ void RingWheel::move_modes(const WheelMotion& m) {
 /// Displacement of a contact node, in the frame of its sector. @param filter share of the filtered
 /// forces that is left at the end of the step
 Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
-  const auto c = static_cast<Index>(2 * (node % n_contact_));
-  const auto row = static_cast<Index>(2 * ring_.contact[at(node % n_contact_)]);
+  const Index c = Index{2} * (node % n_contact_);
+  const Index row = Index{2} * ring_.contact[at(node % n_contact_)];
   Vec2 u{table_.centrifugal[row], table_.centrifugal[row + 1]};
   for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
     const std::complex<double>* amplitude = modes_[h].contact.data() + c;
@@ -397,7 +397,7 @@ void RingWheel::take_forces(WheelReport& report) {
     if (memory.filtered == Vec2{} && memory.filtered_before == Vec2{})
       active_.insert(std::ranges::lower_bound(active_, near.node), near.node);
     memory.filtered += 1.0 / (1.0 + lag) * own;
-    const auto row = static_cast<Index>(2 * (near.node % n_contact_));
+    const Index row = Index{2} * (near.node % n_contact_);
     const Vec2 part = own / static_cast<double>(ring_.n_sectors());
     for_waves(harmonics_, near.turn, [&](std::size_t h, Complex wave) {
       const Matrix& shape = harmonics_[h].contact;
@@ -435,7 +435,7 @@ double RingWheel::work_on_modes(double angle, bool at_end) const {
   double power = 0.0;
   const auto add = [&](int node, Vec2 force) {
     const Complex turn = rotation * ring_.stiffness.turn[at(sector(node))];
-    const auto c = static_cast<Index>(2 * (node % n_contact_));
+    const Index c = Index{2} * (node % n_contact_);
     for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
       const std::complex<double>* rate = modes_[h].middle.data() + c;
       power += harmonics_[h].weight() *
