@@ -107,6 +107,20 @@ def test_reduced_models(case):
         rondo.solve(case, reduced=model, step_factor=-1.0)
 
 
+def test_a_reduced_wheel_of_the_case(case):
+    by_program("run", case, "-o", "out", "--reduced", "--modes", 12)
+    there = rondo.open("out")
+    same(rondo.solve(case, reduced="case", modes=12), there)
+    assert rondo.run(case, "mine", reduced="case", modes=12).history.path.read_bytes() == there.history.path.read_bytes()
+    steps = rondo.Simulation(case, reduced="case", modes=12)
+    steps.advance(5)
+    with pytest.raises(rondo.InputError, match="are for a spin that stays"):
+        steps.set({"motion.angular_velocity": 30.0})
+    steps.set({"motion.speed": 9.0})
+    steps.run()
+    assert np.abs(steps.history["center_x_m"][-1] - there.history["center_x_m"][-1]) > 1e-3
+
+
 def test_a_wheel_as_an_fmu(case):
     rondo.run(case, "full", {"output.snapshots": 100})
     model = rondo.reduce("full", "model.h5", displacement_modes=8, velocity_modes=8)

@@ -40,7 +40,7 @@ def test_help_tells_what_they_mean():
     ({"threads": 0}, r"threads = 0: is out of bounds.*1 to 1024"), ({"threads": True}, r"threads = True: is of a wrong type"),
     ({"threads": "two"}, r"threads = 'two': is of a wrong type \(allowed: a whole number\)"),
     ({"overwrite": True, "resume": True}, "resume.*continues what overwrite would remove.*one of the two"),
-    ({"step_factor": 2.0}, "step_factor = 2.0: is an option of a reduced run.*with reduced = a model of rondo.reduce"),
+    ({"step_factor": 2.0}, "step_factor = 2.0: is an option of a reduced run.*with reduced = 'case', or a model of rondo.reduce"),
     ({"snapshots": "modes"}, "snapshots = modes: is an option of a reduced run")])
 def test_what_the_command_line_refuses_is_refused(case, options, said):
     with pytest.raises(rondo.InputError, match=said):

@@ -224,7 +224,7 @@ constexpr JsonMember<WheelEnd> wheel_end_rows[] = {
 /// reduced wheel.
 class WheelAnalysis final : public DynamicAnalysis {
  public:
-  WheelAnalysis(const Case& c, const RunOptions& options) : DynamicAnalysis(c, options) {
+  WheelAnalysis(const Case& c, const RunOptions& options) : DynamicAnalysis(c, options), case_(c) {
     Setup& setup = own_setup();
     refuse(c, options, setup);
     move_masses(c, setup);
@@ -262,6 +262,22 @@ class WheelAnalysis final : public DynamicAnalysis {
     all.insert(all.end(), wheel_.warnings.begin(), wheel_.warnings.end());
     return all;
   }
+  /// The residual is known for the spins of the case at the start.
+  void take_tables() override {
+    const dynamics::Table& spin = case_.motion.angular_velocity;
+    const double known = wheel_.expected.spin;
+    const bool stays = wheel_.model.squares.size() == 1;
+    if (spin.largest() > known * (1.0 + 1e-9) ||
+        (stays && (spin.points().size() > 1 || std::abs(spin.largest() - known) > 1e-9 * known)))
+      throw case_error(
+          case_, "motion.angular_velocity",
+          stays ? "the tables of this reduced wheel are for a spin that stays"
+                : fmt::format("the tables of this reduced wheel are for spins up to "
+                              "{:.6g} rad/s",
+                              known),
+          "a table from the start that reaches the largest spin, e.g. [[0, w], [1, w]]");
+    DynamicAnalysis::take_tables();
+  }
   void describe(Json& json) const override {
     DynamicAnalysis::describe(json);
     add_members(wheel_rows, wheel_, json);
@@ -286,6 +302,7 @@ class WheelAnalysis final : public DynamicAnalysis {
                                            wheel_.figures, start);
   }
 
+  const Case& case_;
   std::optional<rom::Ring> ring_;
   Wheel wheel_;
 };
