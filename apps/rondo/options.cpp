@@ -90,7 +90,7 @@ CLI::App* add_check(CLI::App& program, RunArguments& arguments, Telling& tell) {
       if (option.words == words) add_option(*check, option);
   add_json(*check, tell);
   check->footer(
-      "Examples:\n  rondo check cases/ledge-smooth.toml --set disk.mesh.radial=24\n"
+      "Example:\n  rondo check cases/ledge-smooth.toml --set disk.mesh.radial=24\n"
       "  rondo check cases/ledge-smooth.toml --reduced");
   return check;
 }

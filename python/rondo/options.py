@@ -8,7 +8,7 @@ OPTIONS: dict[str, dict[str, tuple[str, str]]] = {
         "overwrite": ("bool = False", "Replaces the results of another run"),
         "resume": ("bool = False", "Resumes the run from its last checkpoint, with bitwise the same results; begins it if there is none; with a later time.end a finished run continues"),
         "modes_from": ("Place | None = None", "Results directory of a run of the same body; a crush by analysis.solver = latin-pgd begins with the modes of this run"),
-        "reduced": ("Place | None = None", "`case`: runs a reduced wheel made of the case instead of the mesh; a file: runs this model of rondo.reduce"),
+        "reduced": ("Place | None = None", "Runs a reduced wheel instead of the mesh: `case` for one made of the case, or a model of rondo.reduce"),
         "modes": ("int | None = None", "Number of modes of a reduced wheel made of the case; chosen by its step if left out"),
         "step_factor": ("float | None = None", "Step of a reduced run over that of the full run; default 20"),
         "reduced_step": ("str | None = None", "Scheme of the step of a model; of a wheel made of the case its step in seconds, chosen by spin and contact if left out: midpoint | explicit | SECONDS; default midpoint"),

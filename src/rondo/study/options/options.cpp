@@ -48,8 +48,9 @@ Options run_options(RunOptions& r) {
        .target = &r.reduced,
        .help = "Runs a reduced wheel instead of the mesh: one made of the case, or the model in "
                "this file (rondo reduce); docs/reduced.md",
-       .in_python = "`case`: runs a reduced wheel made of the case instead of the mesh; a file: "
-                    "runs this model of rondo.reduce",
+       .in_python =
+           "Runs a reduced wheel instead of the mesh: `case` for one made of the case, or a "
+           "model of rondo.reduce",
        .alone = wheel_of_case},
       {.words = "--modes",
        .python = "modes",
