@@ -23,7 +23,8 @@ void add_option(CLI::App& command, const study::Option& o) {
       },
       o.target);
   if (!default_text(o).empty()) added->capture_default_str();
-  if (!o.alone.empty()) added->expected(0, 1)->default_str(std::string(o.alone));
+  if (!o.alone.empty())
+    added->expected(0, 1)->default_str(std::string(o.alone))->option_text("TEXT");
   if (o.range) added->check(CLI::Range(o.range->low, o.range->high));
   if (o.needs) added->needs(command.get_option(std::string(o.needs->words)));
   if (o.excludes) added->excludes(command.get_option(std::string(o.excludes->words)));

@@ -11,7 +11,7 @@ OPTIONS: dict[str, dict[str, tuple[str, str]]] = {
         "reduced": ("Place | None = None", "Runs a reduced wheel instead of the mesh: `case` for one made of the case, or a model of rondo.reduce"),
         "modes": ("int | None = None", "Number of modes of a reduced wheel made of the case; chosen by its step if left out"),
         "step_factor": ("float | None = None", "Step of a reduced run over that of the full run; default 20"),
-        "reduced_step": ("str | None = None", "Scheme of the step of a model; of a wheel made of the case its step in seconds, chosen by spin and contact if left out: midpoint | explicit | SECONDS; default midpoint"),
+        "reduced_step": ("str | None = None", "Number of seconds, the step of a wheel made of the case, which is chosen by spin and contact if left out; scheme of the step of a model: midpoint | explicit; default midpoint"),
         "snapshots": ("str | None = None", "Snapshots of a reduced run as fields, or as coordinates of the modes, which are far cheaper, have no stress, and become fields in Python: fields | modes; default fields"),
     },
     "modes": {

@@ -66,9 +66,9 @@ Options run_options(RunOptions& r) {
       {.words = "--reduced-step",
        .python = "reduced_step",
        .target = &r.reduced_step,
-       .help = "Scheme of the step of a model; of a wheel made of the case its step in seconds, "
-               "chosen by spin and contact if left out",
-       .choices = "midpoint | explicit | SECONDS",
+       .help = "Number of seconds, the step of a wheel made of the case, which is chosen by spin "
+               "and contact if left out; scheme of the step of a model",
+       .choices = "midpoint | explicit",
        .needs = reduced_run},
       {.words = "--snapshots",
        .python = "snapshots",
