@@ -62,7 +62,7 @@ class Wheel(ProgramTest):
         out, _ = self.wheel("--modes", 91)
         with h5py.File(out / "results.h5") as f:
             u, angle = f["/snapshots/displacement"][-1], f["/frame/angle"][-1]
-            x = f["/mesh/nodes"][:] if "/mesh/nodes" in f else f["/mesh/coordinates"][:]
+            x = f["/mesh/coordinates"][:]
             center = f["/frame/center"][-1]
         place = x + u
         height = center[1] + np.sin(angle) * place[:, 0] + np.cos(angle) * place[:, 1]
@@ -112,6 +112,20 @@ class Wheel(ProgramTest):
         self.assertLess(np.asarray(rows["force_x"])[early].mean(), -15000)
         self.assertGreater(mean(rows, "force_x", 0.18), 15000)
 
+    def test_any_start_and_a_wheel_that_is_locked(self):
+        """The energy of the start is in the ledger; a steady start is near its end."""
+        for settings in (["initial.velocity=[1,0]"], ["initial.state=stationary"],
+                         ["initial.state=steady-rolling", "motion.height=0.29"],
+                         ["motion.angular_velocity=[[0,0],[1,0]]"]):
+            out, _ = self.wheel(*(word for s in settings for word in ("--set", s)), "--overwrite")
+            self.assertLess(summary(out)["energy_residual_relative"], 1e-11, settings)
+            if "steady" in settings[0]:
+                early = [row for t, row in zip(history(out)["time_s"], history(out)["force_y"])
+                         if t > 0.02]
+                self.assertAlmostEqual(np.mean(early) / 190098, 1.0, delta=0.002)
+        self.assertAlmostEqual(mean(history(out), "force_x") / mean(history(out), "force_y"), -0.4,
+                               delta=0.001)
+
     def test_what_it_refuses(self):
         def refused(text, *settings, case=ROLLING, options=()):
             arguments = [word for s in settings for word in ("--set", s)]
@@ -126,6 +140,7 @@ class Wheel(ProgramTest):
                 case=(ROOT / "cases" / "wheel3d-cornering.toml").read_text())
         refused("there is no ground", case=ROLLING.replace(
             '[ground]\nprofile = "flat"\nfriction = 0.4\n', ""))
+        refused("moves in time", case=STEADY)
         refused("is no step of a reduced wheel", options=("--reduced-step", "-1"))
         refused("is no step of a reduced wheel", options=("--reduced-step", "explicit"))
         refused("is no number of modes", options=("--modes", "-3"))

@@ -14,13 +14,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-WheelSettings settings_of(const dynamics::Model& model, const WheelOptions& options) {
-  return {model.dt,
-          model.mass_damping,
-          model.stiffness_damping,
-          model.contact ? model.contact->law.friction.constant() : 0.0,
-          options.theta,
-          options.slip};
+/// The bound of the contact law of all runs.
+bool is_solved(const WheelReport& wheel) noexcept {
+  return wheel.law_residual <= 1e-9;
+}
+
+WheelSettings settings_of(const dynamics::Model& model) {
+  return {.dt = model.dt,
+          .mass_damping = model.mass_damping,
+          .stiffness_damping = model.stiffness_damping,
+          .friction = model.contact->law.friction.constant()};
 }
 
 }  // namespace
@@ -33,32 +36,31 @@ Ring ring_of(const dynamics::Model& model) {
 /// One table for a spin that stays; else three between 0 and the largest, where a polynomial in s²
 /// errs least (Chebyshev).
 WheelModel make_wheel_model(const Ring& ring, const dynamics::Motion& motion,
-                            const WheelOptions& options) {
+                            const ModeChoice& modes) {
   const OneBlasThread one;
   WheelModel wheel;
-  wheel.harmonics = ring_modes(ring, options.modes);
+  wheel.harmonics = ring_modes(ring, modes);
   for (const Complex x : ring.place) wheel.radius = std::max(wheel.radius, std::hypot(x.re, x.im));
   const double most = std::pow(motion.angular_velocity.largest(), 2);
-  if (motion.angular_velocity.points().size() == 1) {
+  if (motion.angular_velocity.points().size() == 1 || most == 0.0) {
     wheel.squares = {most};
   } else {
     for (int i = 0; i < 3; ++i)
       wheel.squares.push_back(0.5 * most * (1.0 - std::cos(std::numbers::pi * (2 * i + 1) / 6.0)));
   }
   for (const double square : wheel.squares)
-    wheel.residuals.push_back(ring_residual(ring, wheel.harmonics, square, options.form));
+    wheel.residuals.push_back(
+        ring_residual(ring, wheel.harmonics, square, ResidualForm::convected));
   return wheel;
 }
 
 WheelRun::WheelRun(const dynamics::Model& model, const Ring& ring, const WheelModel& wheel,
-                   const WheelOptions& options, WheelFigures& figures,
-                   const dynamics::State& at_start)
+                   WheelFigures& figures, const dynamics::State& at_start)
     : model_(model),
       ring_(ring),
       figures_(figures),
       candidate_(model.n_nodes(), -1),
-      wheel_(ring, wheel.harmonics, wheel.residuals, wheel.squares, model.contact->ground,
-             wheel.radius, settings_of(model, options)) {
+      wheel_(ring, wheel, model.contact->ground, settings_of(model)) {
   RONDO_DEMAND(model.dt > 0.0 && !model.rim, model.dt);
   for (std::size_t i = 0; i < model.contact->nodes.size(); ++i)
     candidate_[at(model.contact->nodes[i])] = static_cast<int>(i);
@@ -107,7 +109,7 @@ void WheelRun::report_contact(const WheelReport& wheel, dynamics::ContactReport&
   report.free_velocity = wheel.free / dt;
   report.residual = wheel.law_residual * report.free_velocity;
   report.clusters = wheel.candidates > 0 ? 1 : 0;
-  report.clusters_not_converged = wheel.law_residual > 1e-9 ? 1 : 0;
+  report.clusters_not_converged = is_solved(wheel) ? 0 : 1;
   report.cluster_largest = wheel.candidates;
   report.cluster_iterations = wheel.iterations;
   for (const WheelContact& c : wheel.contacts) {
@@ -120,6 +122,17 @@ void WheelRun::report_contact(const WheelReport& wheel, dynamics::ContactReport&
   report.loss_impact = wheel.energy.arrival;
   report.work_rim = -wheel.energy.rim;
   report.work = report.work_rim - report.dissipation_friction - report.loss_impact;
+}
+
+void WheelRun::count(const WheelReport& wheel, double seconds) {
+  if (wheel.candidates > 0) ++figures_.contact_steps;
+  figures_.iterations += wheel.iterations;
+  figures_.iterations_max = std::max(figures_.iterations_max, wheel.iterations);
+  figures_.contacts_max = std::max(figures_.contacts_max, static_cast<int>(wheel.contacts.size()));
+  figures_.pivoted += wheel.pivoted ? 1 : 0;
+  figures_.not_converged += is_solved(wheel) ? 0 : 1;
+  figures_.wall_s += seconds;
+  figures_.slowest_step_s = std::max(figures_.slowest_step_s, seconds);
 }
 
 void WheelRun::step(dynamics::StepReport& report) {
@@ -154,15 +167,7 @@ void WheelRun::step(dynamics::StepReport& report) {
     active_.push_back(a);
   }
   std::ranges::sort(active_, {}, &dynamics::ActiveContact::candidate);
-  if (wheel.candidates > 0) ++figures_.contact_steps;
-  figures_.iterations += wheel.iterations;
-  figures_.iterations_max = std::max(figures_.iterations_max, wheel.iterations);
-  figures_.contacts_max = std::max(figures_.contacts_max, report.contact.nodes);
-  figures_.pivoted += wheel.pivoted ? 1 : 0;
-  figures_.not_converged += report.contact.clusters_not_converged;
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-  figures_.wall_s += seconds;
-  figures_.slowest_step_s = std::max(figures_.slowest_step_s, seconds);
+  count(wheel, std::chrono::duration<double>(Clock::now() - begin).count());
 }
 
 void WheelRun::fill(dynamics::State& state) const {

@@ -11,21 +11,6 @@
 
 namespace rondo::rom {
 
-struct WheelOptions {
-  ModeChoice modes;
-  ResidualForm form = ResidualForm::convected;
-  double theta = 0.6;
-  SlipRule slip = SlipRule::anchored;
-};
-
-/// What the steps of a wheel need that is found once.
-struct WheelModel {
-  std::vector<RingHarmonic> harmonics;
-  std::vector<double> squares;          ///< s² of the residuals: one, or three [1/s²]
-  std::vector<RingResidual> residuals;  ///< at these
-  double radius = 0.0;                  ///< largest |X| [m]
-};
-
 /// Effort of the steps so far.
 struct WheelFigures {
   long long contact_steps = 0;
@@ -39,14 +24,14 @@ struct WheelFigures {
 /// @param model with `sector` and a contact without mass: its masses are 0 at contact nodes
 [[nodiscard]] Ring ring_of(const dynamics::Model& model);
 [[nodiscard]] WheelModel make_wheel_model(const Ring& ring, const dynamics::Motion& motion,
-                                          const WheelOptions& options);
+                                          const ModeChoice& modes);
 
 class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
  public:
   /// All but the state must outlive it. @param model dt: that of the reduced step
   /// @param at_start u and v at t = 0, co-rotating frame; what is outside of the modes is lost
   WheelRun(const dynamics::Model& model, const Ring& ring, const WheelModel& wheel,
-           const WheelOptions& options, WheelFigures& figures, const dynamics::State& at_start);
+           WheelFigures& figures, const dynamics::State& at_start);
 
   void advance(std::span<dynamics::StepReport> reports,
                dynamics::State* last = nullptr) noexcept override;
@@ -54,12 +39,11 @@ class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
   [[nodiscard]] Resumable* resumable() noexcept override { return this; }
   [[nodiscard]] dynamics::SavedState save() const override;
   void restore(const dynamics::SavedState& saved) override;
-  /// Size of SavedState::ring.
-  [[nodiscard]] std::size_t n_numbers() const noexcept { return wheel_.n_numbers(); }
 
  private:
   [[nodiscard]] WheelMotion motion_of(long long step) const;
   void step(dynamics::StepReport& report);
+  void count(const WheelReport& wheel, double seconds);
   void report_contact(const WheelReport& wheel, dynamics::ContactReport& report) const;
   [[nodiscard]] int node_of(int contact_node) const noexcept;
   void fill(dynamics::State& state) const;

@@ -112,11 +112,26 @@ class Motion {
   dynamics::Table height_, spin_;
 };
 
+WheelModel model_of(const Ring& ring, const Rolling& run) {
+  WheelModel model;
+  model.harmonics = ring_modes(ring, {.wanted = run.modes});
+  model.squares = {run.spin * run.spin};
+  if (run.spins) {
+    const double most = std::pow(run.spins->largest(), 2);
+    model.squares = {0.067 * most, 0.5 * most, 0.933 * most};
+  }
+  for (const double square : model.squares)
+    model.residuals.push_back(ring_residual(ring, model.harmonics, square, run.form));
+  model.radius = 0.3;
+  return model;
+}
+
 struct Wheel {
   const Disk& of;
   Ring ring;
   contact::Ground ground;
   double dt;
+  WheelModel model;
   RingWheel wheel;
   Motion motion;
 
@@ -126,25 +141,12 @@ struct Wheel {
         ground(run.ground),
         dt(2.0 * pi / d.sector.n_sectors / std::abs(run.spin == 0.0 ? 100.0 / 3.0 : run.spin) /
            run.passes),
-        wheel(make(run)),
+        model(model_of(ring, run)),
+        wheel(ring, model, ground,
+              {dt, run.damped ? 200.0 : 0.0, run.damped ? 2e-5 : 0.0, run.friction, run.theta,
+               run.slip}),
         motion(run, dt) {
     wheel.start(motion.start());
-  }
-
- private:
-  RingWheel make(const Rolling& run) {
-    std::vector<RingHarmonic> modes = ring_modes(ring, {.wanted = run.modes});
-    std::vector<double> squares{run.spin * run.spin};
-    if (run.spins) {
-      const double most = std::pow(run.spins->largest(), 2);
-      squares = {0.067 * most, 0.5 * most, 0.933 * most};
-    }
-    std::vector<RingResidual> residuals;
-    for (const double square : squares)
-      residuals.push_back(ring_residual(ring, modes, square, run.form));
-    const WheelSettings settings{
-        dt, run.damped ? 200.0 : 0.0, run.damped ? 2e-5 : 0.0, run.friction, run.theta, run.slip};
-    return {ring, std::move(modes), std::move(residuals), squares, ground, 0.3, settings};
   }
 };
 
@@ -232,6 +234,22 @@ TEST(RingHarmonics, TheResidualIsTheComplianceThatTheModesLeave) {
   expect(rest, 0, 9.241287529, 0.0, 9.600339950);
   expect(rest, 1, 3.222878153, -0.562581345, 5.800770005);
   EXPECT_TRUE(rest.made_static.empty());
+}
+
+/// With a step of 0.4 ms.
+TEST(RingWheel, TheComplianceOfAStepHasTheModesAnswer) {
+  const auto expect = [](int modes, double rr, double rt, double tt) {
+    const Rolling run{.modes = modes, .passes = 2.0 * pi / 180.0 / (100.0 / 3.0) / 4e-4};
+    const Wheel w(disk(), run);
+    const auto block = w.wheel.compliance(0);
+    EXPECT_NEAR(1e8 * block(1, 1), rr, 6e-9) << modes;
+    EXPECT_NEAR(1e8 * block(0, 0), tt, 6e-9) << modes;
+    EXPECT_NEAR(1e8 * block(1, 0), -rt, 6e-9) << modes;
+    EXPECT_NEAR(1e8 * block(0, 1), rt, 6e-9) << modes;
+  };
+  expect(0, 11.86237566, 0.0, 16.72515199);  // G[0]/(1 + β/Δt)
+  expect(20, 9.115880366, -0.003820086, 9.456234894);
+  expect(40, 8.302183331, -0.012059623, 8.5272255);
 }
 
 /// Beyond the critical spin of a harmonic that no mode has, 154.8 rad/s of k = 89.
@@ -367,6 +385,41 @@ TEST(RingWheel, ResumesToTheSameBits) {
     ASSERT_EQ(total(a.energy), total(b.energy)) << i;
     ASSERT_EQ(a.energy.scheme, b.energy.scheme) << i;
   }
+}
+
+TEST(RingWheel, WhatItDidNotSaveIsNotRestored) {
+  const Wheel w(disk(), {});
+  const std::vector<double> numbers = w.wheel.save();
+  const auto fits = [&](std::size_t back, double value) {
+    std::vector<double> other = numbers;
+    other[other.size() - back] = value;
+    return RingWheel::is_saved(w.ring, w.model, other);
+  };
+  EXPECT_TRUE(RingWheel::is_saved(w.ring, w.model, numbers));
+  EXPECT_FALSE(RingWheel::is_saved(w.ring, w.model, std::span(numbers).first(numbers.size() - 1)));
+  EXPECT_FALSE(fits(1, 0.5));           // side
+  EXPECT_FALSE(fits(2, 1e300));         // status
+  EXPECT_FALSE(fits(3, 4.0));           // known places
+  EXPECT_FALSE(fits(7, std::nan("")));  // a place
+}
+
+/// The energy of the start is that of its fields: modes that move, in a body that turns.
+TEST(RingWheel, TheLedgerBeginsWithTheFieldsOfTheStart) {
+  const OneBlasThread one;
+  const Rolling run{};
+  Wheel w(disk(), run);
+  const std::size_t n = w.of.built.model.n_nodes();
+  std::vector<Vec2> u(n), v(n);
+  for (const int node : w.of.built.model.free) {
+    const auto k = static_cast<std::size_t>(node);
+    u[k] = 1e-3 * w.of.built.model.reference[k];
+    v[k] = {1.0, 0.5};
+  }
+  w.wheel.start(w.motion.start(), u, v);
+  const WheelEnergy start = w.wheel.energy_at_start();
+  EXPECT_GT(start.kinetic, 10.0);
+  const WheelReport r = w.wheel.step(w.motion.at(0));
+  EXPECT_NEAR(total(r.energy) - total(start), change(r.energy), 1e-11 * total(start));
 }
 
 /// The ledger of a spin that changes, and forwards to backwards through a wheel that stands.

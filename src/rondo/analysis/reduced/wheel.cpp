@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -125,7 +126,6 @@ void move_masses(const Case& c, Setup& setup) {
 }
 
 struct Wheel {
-  rom::WheelOptions options;
   rom::WheelModel model;
   Expected expected;
   double full_step = 0.0;
@@ -232,13 +232,11 @@ class WheelAnalysis final : public DynamicAnalysis {
     wheel_.expected = expected(c, setup);
     setup.model.dt = step_of(options, wheel_.expected);
     setup.n_steps = count_steps(c, setup.model.dt);
-    wheel_.options.modes = modes_of(options, setup);
     ring_.emplace(rom::ring_of(setup.model));
-    wheel_.model = rom::make_wheel_model(*ring_, setup.model.motion, wheel_.options);
+    wheel_.model = rom::make_wheel_model(*ring_, setup.model.motion, modes_of(options, setup));
     setup.reduced = fmt::format("a reduced wheel of {} modes with a step of {:.17g} s",
                                 wheel_.n_modes(), setup.model.dt);
-    dynamics::State start(setup.model);
-    setup.saved_numbers = run_of(start)->n_numbers();
+    setup.saved_numbers = rom::RingWheel::n_numbers(*ring_, wheel_.model);
     warn_of(setup, wheel_);
     plan_snapshots();
   }
@@ -262,20 +260,15 @@ class WheelAnalysis final : public DynamicAnalysis {
     all.insert(all.end(), wheel_.warnings.begin(), wheel_.warnings.end());
     return all;
   }
-  /// The residual is known for the spins of the case at the start.
+  [[nodiscard]] const Checkpoint* find(const std::filesystem::path& directory) override {
+    const Checkpoint* found = DynamicAnalysis::find(directory);
+    if (found && !rom::RingWheel::is_saved(*ring_, wheel_.model, found->state.ring))
+      throw FileError((directory / checkpoint_name).string(),
+                      "is damaged: its numbers are not those of a reduced wheel");
+    return found;
+  }
   void take_tables() override {
-    const dynamics::Table& spin = case_.motion.angular_velocity;
-    const double known = wheel_.expected.spin;
-    const bool stays = wheel_.model.squares.size() == 1;
-    if (spin.largest() > known * (1.0 + 1e-9) ||
-        (stays && (spin.points().size() > 1 || std::abs(spin.largest() - known) > 1e-9 * known)))
-      throw case_error(
-          case_, "motion.angular_velocity",
-          stays ? "the tables of this reduced wheel are for a spin that stays"
-                : fmt::format("the tables of this reduced wheel are for spins up to "
-                              "{:.6g} rad/s",
-                              known),
-          "a table from the start that reaches the largest spin, e.g. [[0, w], [1, w]]");
+    refuse_spin();
     DynamicAnalysis::take_tables();
   }
   void describe(Json& json) const override {
@@ -293,13 +286,28 @@ class WheelAnalysis final : public DynamicAnalysis {
   [[nodiscard]] bool guards_impacts() const noexcept override { return false; }
   [[nodiscard]] std::unique_ptr<dynamics::Integrator> make_integrator(
       dynamics::State& start) override {
-    return run_of(start);
+    return std::make_unique<rom::WheelRun>(setup().model, *ring_, wheel_.model, wheel_.figures,
+                                           start);
   }
 
  private:
-  [[nodiscard]] std::unique_ptr<rom::WheelRun> run_of(const dynamics::State& start) {
-    return std::make_unique<rom::WheelRun>(setup().model, *ring_, wheel_.model, wheel_.options,
-                                           wheel_.figures, start);
+  /// The residual is known for the spins of the case at the start.
+  void refuse_spin() const {
+    const double known = wheel_.expected.spin;
+    const dynamics::Table& spin = case_.motion.angular_velocity;
+    const double first = spin.points().front()[1];
+    const auto is_first = [&](const std::array<double, 2>& point) { return point[1] == first; };
+    const bool stays = wheel_.model.squares.size() == 1;
+    if (stays ? std::abs(std::abs(first) - known) <= 1e-9 * known &&
+                    std::ranges::all_of(spin.points(), is_first)
+              : spin.largest() <= known * (1.0 + 1e-9))
+      return;
+    throw case_error(case_, "motion.angular_velocity",
+                     stays ? "the tables of this reduced wheel are for a spin that stays"
+                           : fmt::format("the tables of this reduced wheel are for spins up to "
+                                         "{:.6g} rad/s",
+                                         known),
+                     "a table from the start that reaches the largest spin, e.g. [[0, w], [1, w]]");
   }
 
   const Case& case_;
@@ -310,6 +318,9 @@ class WheelAnalysis final : public DynamicAnalysis {
 }  // namespace
 
 std::unique_ptr<Analysis> make_wheel(const Case& c, const RunOptions& options) {
+  if (c.analysis.kind != AnalysisKind::dynamic)
+    throw case_error(c, "analysis.kind", "a reduced wheel of the case moves in time",
+                     "\"dynamic\"; or this analysis of the mesh, without --reduced");
   return std::make_unique<WheelAnalysis>(c, options);
 }
 

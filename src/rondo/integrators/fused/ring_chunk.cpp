@@ -17,6 +17,8 @@ RingChunk<C>::RingChunk(const Model& model, const RingLayout& layout, const Cycl
   RONDO_DEMAND(range.first >= 0 && range.columns > 0 && range.first + range.columns <= n &&
                    range.columns <= columns && range.n_groups > 0,
                range.first, range.columns, n, columns, range.n_groups);
+  RONDO_DEMAND(layout.nodes.size() == static_cast<std::size_t>(layout.n_local), layout.nodes.size(),
+               layout.n_local);
   RONDO_DEMAND(turn.size() == static_cast<std::size_t>(n) && layout.components == C &&
                    (C == 2 || layout.frame.size() == static_cast<std::size_t>(layout.n_local)),
                turn.size(), n, layout.components, layout.frame.size(), layout.n_local);

@@ -204,6 +204,7 @@ template <int C>
 template <class Work, class Strip>
 void RingChunk<C>::walk(std::span<const Work> work, Strip&& strip) noexcept {
   const std::size_t n = work.size();
+  RONDO_ASSERT(n > 0 && n <= static_cast<std::size_t>(layout_.cut.depth), n, layout_.cut.depth);
   std::array<int, halo_columns> done{};  // strips done by each step
   const auto n_strips = static_cast<int>(layout_.needs.size());
   while (done[n - 1] < n_strips) {

@@ -13,7 +13,7 @@ class SolidRim {
   /// The model must outlive it. @pre model.rim
   explicit SolidRim(const Model& model) noexcept;
 
-  // As those of LoadedRim. Forces are along the axes of the co-rotating frame and the axle.
+  // These do what LoadedRim does under the same names; vectors are in the co-rotating frame.
   void start(const RimForceOf<Vec3>& q) noexcept;
   void move() noexcept;
   void take(const RimForceOf<Vec3>& q) noexcept;

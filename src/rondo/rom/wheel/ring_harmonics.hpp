@@ -62,7 +62,7 @@ struct ModeChoice {
 /// The harmonics that have modes, ascending.
 [[nodiscard]] std::vector<RingHarmonic> ring_modes(const Ring& ring, const ModeChoice& choice);
 
-/// Of the harmonics: modes that count for two are counted so.
+/// Number of modes in the harmonics; a mode of k > 0 counts for two, as in ModeChoice.
 [[nodiscard]] int count_modes(std::span<const RingHarmonic> harmonics) noexcept;
 
 /// Angular frequencies of a harmonic, ascending, all of them [rad/s].

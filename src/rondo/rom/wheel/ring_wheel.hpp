@@ -31,6 +31,15 @@ struct WheelSettings {
   SlipRule slip = SlipRule::anchored;
 };
 
+/// What the steps of a wheel need that is found once.
+struct WheelModel {
+  std::vector<RingHarmonic> harmonics;
+  std::vector<double> squares;          ///< s² of the residuals: one, or three between which they
+                                        ///< are interpolated [1/s²]
+  std::vector<RingResidual> residuals;  ///< at these
+  double radius = 0.0;                  ///< largest |X| [m]
+};
+
 /// The rim over a step from t_n to t_{n+1}.
 struct WheelMotion {
   double angle = 0.0, angle_next = 0.0;  ///< θ, counter-clockwise                      [rad]
@@ -78,20 +87,17 @@ struct WheelReport {
 
 class RingWheel {
  public:
-  /// @param residuals for spins whose squares are `squares`: one, or three between which it is
-  /// interpolated. @param radius the largest of the undeformed ring [m]
-  RingWheel(const Ring& ring, std::vector<RingHarmonic> harmonics,
-            std::vector<RingResidual> residuals, std::vector<double> squares,
-            const contact::Ground& ground, double radius, const WheelSettings& settings);
+  /// All but the settings must outlive it.
+  RingWheel(const Ring& ring, const WheelModel& model, const contact::Ground& ground,
+            const WheelSettings& settings);
 
   /// Starts from the stationary spin, at angle_next and center_next.
   void start(const WheelMotion& motion);
   /// Starts from fields of all nodes in the co-rotating frame, (n) each; only their modes remain.
   void start(const WheelMotion& motion, std::span<const Vec2> u, std::span<const Vec2> v);
-  /// Allocates nothing unless the law of contact needs pivoting.
+  /// Allocates nothing unless the spin changes or the law of contact needs pivoting.
   [[nodiscard]] WheelReport step(const WheelMotion& motion);
 
-  [[nodiscard]] std::span<const RingHarmonic> harmonics() const noexcept { return harmonics_; }
   [[nodiscard]] WheelEnergy energy_at_start() const;
   /// Displacement of the free nodes after the last step, in the co-rotating frame; (n).
   /// @param angle θ at its end. @param contact_alone writes only that of the contact nodes
@@ -100,12 +106,15 @@ class RingWheel {
   void velocity(double angle, std::span<Vec2> v) const;
   /// W[lag]: displacement at the end of a step of contact node i by a force on j, i - j = lag.
   [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> compliance(int lag) const noexcept;
-  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> residual(int lag) const noexcept;
 
   /// The numbers from which another wheel of this ring, and these settings, resumes bit for bit.
-  [[nodiscard]] std::size_t n_numbers() const noexcept;
+  [[nodiscard]] static std::size_t n_numbers(const Ring& ring, const WheelModel& model) noexcept;
   [[nodiscard]] std::vector<double> save() const;
+  /// @pre is_saved()
   void restore(std::span<const double> numbers);
+  /// Whether numbers may come from save() of a wheel of this model.
+  [[nodiscard]] static bool is_saved(const Ring& ring, const WheelModel& model,
+                                     std::span<const double> numbers) noexcept;
 
  private:
   using Complexes = std::complex<double>;
@@ -167,7 +176,7 @@ class RingWheel {
   void account_modes(const WheelMotion& motion, WheelEnergy& energy) const;
   [[nodiscard]] double work_on_modes(double angle, bool at_end) const;
   [[nodiscard]] Products products(const RingResidual& table) const;
-  void remember();
+  void remember(const WheelMotion& motion);
   struct Rows;
   template <class Coefficients, class Filtered>
   void write_field(Rows rows, double angle, const Eigen::VectorXd& constant,
@@ -187,18 +196,16 @@ class RingWheel {
   [[nodiscard]] Block answer(const double* table, int to, int from) const noexcept;
 
   const Ring& ring_;
-  const std::vector<RingHarmonic> harmonics_;
-  const std::vector<RingResidual> residuals_;
-  const std::vector<double> squares_;
+  const std::vector<RingHarmonic>& harmonics_;
+  const WheelModel& model_;
   const contact::Ground& ground_;
-  const double radius_;
   const WheelSettings settings_;
   const int n_contact_;  ///< C
   const bool flat_;
-  RingResidual table_, table_before_;  ///< of the spins at both ends of the step, without fields
-  std::array<double, 3> shares_{1.0};  ///< of `residuals_` in the table
-  std::vector<double> compliance_;     ///< (N, 2C, 2C) W[lag]                       [m²/N]
-  std::array<double, 3> used_{};       ///< angle turned, rate and end spin of the matrices
+  RingResidual table_, table_before_;    ///< of the spins at both ends of the step, without fields
+  std::array<double, 3> shares_{1.0};    ///< of the model's residuals in the table
+  std::vector<double> compliance_;       ///< (N, 2C, 2C) W[lag]                       [m²/N]
+  double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
   bool has_matrices_ = false;
   std::vector<Modes> modes_;
   std::vector<Memory> memory_;  ///< (N C)
@@ -208,7 +215,6 @@ class RingWheel {
   std::vector<contact::Touch> touch_;  ///< of these, at `place`
   std::vector<GapContact> law_;
   std::vector<WheelContact> contacts_;
-  std::vector<double> before_;  ///< (solved) distance from the ground before the step [m]
   GapLaw gap_law_;
 };
 

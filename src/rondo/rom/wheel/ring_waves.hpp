@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Waves e^{ikψ} of the harmonics of a ring, and small vectors, as the parts of RingWheel
+/// need them.
+#pragma once
+#include <cmath>
+#include <complex>
+#include <span>
+
+#include "rondo/rom/wheel/ring_harmonics.hpp"
+
+namespace rondo::rom {
+
+inline Complex turned_by(double angle) noexcept {
+  return {std::cos(angle), std::sin(angle)};
+}
+/// The normal turned by -90°.
+inline Vec2 tangent_of(Vec2 normal) noexcept {
+  return {normal.y, -normal.x};
+}
+
+/// Re(a b).
+inline double real_product(Complex a, const std::complex<double>& b) noexcept {
+  return a.re * b.real() - a.im * b.imag();
+}
+
+/// Calls work(harmonic, e^{ikψ}) for all harmonics, whose k ascend.
+template <class Work>
+void for_waves(std::span<const RingHarmonic> harmonics, Complex turn, Work&& work) {
+  Complex wave{1.0, 0.0};
+  int k = 0;
+  for (std::size_t h = 0; h < harmonics.size(); ++h) {
+    for (; k < harmonics[h].k; ++k) wave = wave * turn;
+    work(h, wave);
+  }
+}
+
+}  // namespace rondo::rom

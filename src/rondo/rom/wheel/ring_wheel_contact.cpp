@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Contact of a step: nodes near the ground, the law, what its forces do.
+#include "rondo/rom/wheel/ring_wheel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/core/index.hpp"
+#include "rondo/rom/wheel/ring_waves.hpp"
+
+namespace rondo::rom {
+namespace {
+
+using contact::Status;
+using Eigen::Index;
+
+constexpr double near_share = 0.05;        ///< of the radius, above the ground: looked at
+constexpr double candidate_share = 0.013;  ///< contact is solved
+constexpr double closed = -1e-14;          ///< gaps above it are closed to round-off       [m]
+constexpr double nothing = 1e-9;           ///< filtered forces below it are 0            [N/m]
+constexpr int most_turns = 3;              ///< of the normals, on ground that is not flat
+
+/// Smallest root in [0, 1] of g + b τ + a τ² = 0 with g > 0, a >= 0; 1: there is none.
+double landing(double g, double b, double a) noexcept {
+  if (b >= 0.0) return 1.0;
+  const double inside = b * b - 4.0 * a * g;
+  if (inside < 0.0) return 1.0;
+  return std::min(1.0, 2.0 * g / (-b + std::sqrt(inside)));
+}
+
+}  // namespace
+
+/// Displacement of a contact node, in the frame of its sector. @param filter share of the filtered
+/// forces that is left at the end of the step
+Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
+  const Index c = Index{2} * (node % n_contact_);
+  const Index row = Index{2} * ring_.contact[at(node % n_contact_)];
+  Vec2 u{table_.centrifugal[row], table_.centrifugal[row + 1]};
+  for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
+    const std::complex<double>* amplitude = modes_[h].contact.data() + c;
+    const double weight = harmonics_[h].weight();
+    u += weight * Vec2{real_product(wave, amplitude[0]), real_product(wave, amplitude[1])};
+  });
+  for (const int j : active_)
+    u += contact::apply(answer(table_.blocks.data(), node, j), filter * memory_of(j).filtered);
+  return u;
+}
+
+/// Nodes that are or may come near the ground, and their places without new forces.
+void RingWheel::find_near(const WheelMotion& m, double filter) {
+  near_.clear();
+  const double limit = ground_.top() + near_share * model_.radius - m.center_next.y;
+  const Complex rotation = turned_by(m.angle_next);
+  for (int j = 0; j < ring_.n_sectors(); ++j) {
+    const Complex turn = rotation * ring_.stiffness.turn[at(j)];
+    for (int c = 0; c < n_contact_; ++c) {
+      const int node = j * n_contact_ + c;
+      if ((turn * arm(node)).y > limit && memory_of(node).status == Status::open) continue;
+      Near near;
+      near.node = node;
+      near.turn = turn;
+      near.free = near.place = turn * (arm(node) + displacement(node, turn, filter));
+      near_.push_back(near);
+    }
+  }
+}
+
+/// The distance that a node slides, as a vector, were it at its place without new forces.
+Vec2 RingWheel::distance(const Near& near, const WheelMotion& m) const {
+  const Memory& was = memory_of(near.node);
+  const Vec2 way = m.center_next - m.center;
+  if (was.known == 0)  // it comes into sight: as if it only turned
+    return way + near.free - conj(turned_by(m.angle_next - m.angle)) * near.free;
+  const Vec2 x = was.place[0];
+  if (was.known < 2) return way + near.free - x;
+  if (settings_.slip == SlipRule::bdf2)
+    return (2.0 / 3.0) * (way + 1.5 * near.free - 2.0 * x + 0.5 * was.place[1]);
+  if (was.status != Status::open || was.gap[0] <= 0.0) return way + near.free - x;
+  const double bend = 0.5 * m.spin_next * m.spin_next * model_.radius * settings_.dt * settings_.dt;
+  const double tau = landing(was.gap[0], was.gap[0] - was.gap[1] + bend, bend);
+  const Vec2 change = x - was.place[1];
+  const Vec2 second = was.known < 3 ? Vec2{} : x - 2.0 * was.place[1] + was.place[2];
+  const Vec2 before = tau * (change + 0.5 * second) + 0.5 * tau * tau * second;
+  return (1.0 - tau) * way + near.free - x - before;
+}
+
+/// Nodes that are low enough, or were pressed.
+void RingWheel::add_candidates(const WheelMotion& m) {
+  solved_.clear();
+  touch_.clear();
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    Near& near = near_[i];
+    const contact::Touch touch = ground_.facet_near(m.center_next + near.place);
+    near.candidate |=
+        touch.gap < candidate_share * model_.radius || memory_of(near.node).status != Status::open;
+    if (!near.candidate) continue;
+    solved_.push_back(i);
+    touch_.push_back(touch);
+  }
+}
+
+/// The law of the candidates, with the facets that are nearest to their places.
+void RingWheel::fill_law(const WheelMotion& m) {
+  const std::size_t n = solved_.size();
+  law_.resize(n);
+  auto w = gap_law_.compliance(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Near& near = near_[solved_[i]];
+    const Memory& was = memory_of(near.node);
+    const Vec2 normal = touch_[i].normal, tangent = tangent_of(normal);
+    GapContact& c = law_[i];
+    c = {};
+    c.free_gap = touch_[i].gap + dot(normal, near.free - near.place);
+    c.free_slip = dot(tangent, distance(near, m));
+    c.status = was.status;
+    c.side = was.side;
+    const Vec2 to_normal = conj(near.turn) * normal, to_tangent = conj(near.turn) * tangent;
+    const auto row = static_cast<Index>(2 * i);
+    for (std::size_t j = 0; j < n; ++j) {
+      const Near& other = near_[solved_[j]];
+      const Block g = answer(compliance_.data(), near.node, other.node);
+      const Vec2 pushed = contact::apply(g, conj(other.turn) * touch_[j].normal),
+                 pulled = contact::apply(g, conj(other.turn) * tangent_of(touch_[j].normal));
+      const auto column = static_cast<Index>(2 * j);
+      w(row, column) = dot(to_normal, pushed);
+      w(row + 1, column) = dot(to_tangent, pushed);
+      w(row, column + 1) = dot(to_normal, pulled);
+      w(row + 1, column + 1) = dot(to_tangent, pulled);
+    }
+  }
+}
+
+/// Places of all near nodes under the forces.
+void RingWheel::place_all() {
+  for (Near& near : near_) near.place = near.free;
+  for (std::size_t j = 0; j < solved_.size(); ++j) {
+    if (law_[j].normal == 0.0 && law_[j].shear == 0.0) continue;
+    const Near& from = near_[solved_[j]];
+    const Vec2 normal = touch_[j].normal;
+    const Vec2 force =
+        conj(from.turn) * (law_[j].normal * normal + law_[j].shear * tangent_of(normal));
+    for (Near& near : near_) {
+      near.place +=
+          near.turn * contact::apply(answer(compliance_.data(), near.node, from.node), force);
+    }
+  }
+}
+
+/// Nodes that were left out and are now in the ground become candidates. False: there are none.
+bool RingWheel::join(const WheelMotion& m) {
+  bool joined = false;
+  for (Near& near : near_)
+    if (!near.candidate && ground_.facet_near(m.center_next + near.place).gap < closed)
+      joined = near.candidate = true;
+  return joined;
+}
+
+/// Whether a candidate is now at another facet, or elsewhere on an arc.
+bool RingWheel::turn_normals(const WheelMotion& m) const {
+  bool turned = false;
+  for (std::size_t i = 0; i < solved_.size(); ++i) {
+    const contact::Touch touch = ground_.facet_near(m.center_next + near_[solved_[i]].place);
+    const Vec2 change = touch.normal - touch_[i].normal;
+    turned |= dot(change, change) > 1e-20;
+  }
+  return turned;
+}
+
+void RingWheel::solve(const WheelMotion& m, double friction, WheelReport& report) {
+  if (!flat_) {  // the forces of before tell where nodes about are
+    law_.clear();
+    touch_.clear();
+    solved_.clear();
+    for (std::size_t i = 0; i < near_.size(); ++i) {
+      const Vec2 force = near_[i].turn * memory_of(near_[i].node).force;
+      if (force == Vec2{}) continue;
+      solved_.push_back(i);
+      touch_.push_back({0.0, force});
+      law_.push_back({});
+      law_.back().normal = 1.0;
+    }
+    place_all();
+  }
+  for (int turn = 0; turn < most_turns; ++turn) {
+    add_candidates(m);
+    report.candidates = static_cast<int>(solved_.size());
+    if (solved_.empty()) return;
+    fill_law(m);
+    const GapLaw::Report solved = gap_law_.solve(law_, friction);
+    report.iterations += solved.iterations;
+    report.pivoted |= solved.pivoted;
+    report.law_residual = solved.residual;
+    report.free = 0.0;
+    for (const GapContact& c : law_)
+      report.free = std::max(report.free, std::hypot(std::min(0.0, c.free_gap), c.free_slip));
+    place_all();
+    if (join(m)) {
+      turn = -1;  // as many nodes can join as there are
+      continue;
+    }
+    if (flat_ || !turn_normals(m)) return;
+  }
+}
+
+/// Forces of the ground, and what they do to the modes and to the residual.
+void RingWheel::take_forces(WheelReport& report) {
+  const double lag = settings_.stiffness_damping / settings_.dt;
+  for (const int node : active_) {
+    Memory& memory = memory_of(node);
+    memory.filtered_before = memory.filtered;
+    memory.filtered = lag / (1.0 + lag) * memory.filtered;
+  }
+  contacts_.clear();
+  for (Modes& s : modes_) s.force.setZero();
+  for (std::size_t i = 0; i < solved_.size(); ++i) {
+    const GapContact& c = law_[i];
+    if (c.normal == 0.0 && c.shear == 0.0) continue;
+    const Near& near = near_[solved_[i]];
+    const Vec2 normal = touch_[i].normal;
+    const Vec2 force = c.normal * normal + c.shear * tangent_of(normal);
+    contacts_.push_back({near.node, normal, force, c.gap, c.slip, c.status});
+    report.force += force;
+    report.torque += cross(near.place, force);
+    const Vec2 own = conj(near.turn) * force;
+    Memory& memory = memory_of(near.node);
+    if (memory.filtered == Vec2{} && memory.filtered_before == Vec2{})
+      active_.insert(std::ranges::lower_bound(active_, near.node), near.node);
+    memory.filtered += 1.0 / (1.0 + lag) * own;
+    const Index row = Index{2} * (near.node % n_contact_);
+    const Vec2 part = own / static_cast<double>(ring_.n_sectors());
+    for_waves(harmonics_, near.turn, [&](std::size_t h, Complex wave) {
+      const Matrix& shape = harmonics_[h].contact;
+      for (Index j = 0; j < shape.cols(); ++j) {
+        const std::complex<double> x = shape(row, j) * part.x + shape(row + 1, j) * part.y;
+        // conj(e^{ikψ} x)
+        modes_[h].force[j] +=
+            Complexes(real_product(wave, x), -(wave.re * x.imag() + wave.im * x.real()));
+      }
+    });
+  }
+  for (Modes& s : modes_) s.state.noalias() += settings_.theta * (s.push * s.force);
+  report.contacts = contacts_;
+}
+
+/// Places, gaps, statuses and forces at the end of the step.
+void RingWheel::remember(const WheelMotion& m) {
+  std::erase_if(active_, [&](int node) {
+    Memory& memory = memory_of(node);
+    const bool gone = dot(memory.filtered, memory.filtered) < nothing * nothing;
+    if (gone) memory.filtered = memory.filtered_before = {};
+    return gone;
+  });
+  std::size_t i = 0, c = 0, l = 0;
+  for (std::size_t node = 0; node < memory_.size(); ++node) {
+    Memory& memory = memory_[node];
+    memory.force = {};
+    memory.side = 0.0;
+    memory.status = Status::open;
+    if (i == near_.size() || at(near_[i].node) != node) {
+      memory.known = 0;
+      continue;
+    }
+    const Near& near = near_[i];
+    memory.place = {near.place, memory.place[0], memory.place[1]};
+    memory.gap = {ground_.facet_near(m.center_next + near.place).gap, memory.gap[0]};
+    memory.known = std::min(3, memory.known + 1);
+    if (l < solved_.size() && solved_[l] == i) {
+      memory.status = law_[l].status;
+      memory.side = law_[l].side;
+      ++l;
+    }
+    if (c < contacts_.size() && at(contacts_[c].node) == node)
+      memory.force = conj(near.turn) * contacts_[c++].force;
+    ++i;
+  }
+}
+
+}  // namespace rondo::rom

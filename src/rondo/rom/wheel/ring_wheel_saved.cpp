@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The numbers from which a wheel resumes.
+#include "rondo/rom/wheel/ring_wheel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
+
+namespace rondo::rom {
+namespace {
+
+using contact::Status;
+using Eigen::Index;
+
+void put(const Eigen::VectorXcd& from, std::vector<double>& to) {
+  for (const std::complex<double>& x : from) to.insert(to.end(), {x.real(), x.imag()});
+}
+
+/// Reads numbers one after the other.
+class Reader {
+ public:
+  explicit Reader(std::span<const double> numbers) : left_(numbers) {}
+  double next() {
+    RONDO_DEMAND(!left_.empty());
+    const double x = left_.front();
+    left_ = left_.subspan(1);
+    return x;
+  }
+  Vec2 vec() {
+    const double x = next();
+    return {x, next()};
+  }
+  void fill(Eigen::VectorXcd& to) {
+    for (std::complex<double>& x : to) {
+      const Vec2 parts = vec();
+      x = {parts.x, parts.y};
+    }
+  }
+
+ private:
+  std::span<const double> left_;
+};
+
+}  // namespace
+
+std::size_t RingWheel::n_numbers(const Ring& ring, const WheelModel& model) noexcept {
+  Index n = 1;
+  for (const RingHarmonic& h : model.harmonics) n += 6 * h.squares.size();
+  return at(n) + numbers_of_node * ring.contact.size() * at(ring.n_sectors());
+}
+
+/// Of the modes every number is one; of nodes some are counts, or names.
+bool RingWheel::is_saved(const Ring& ring, const WheelModel& model,
+                         std::span<const double> numbers) noexcept {
+  if (numbers.size() != n_numbers(ring, model)) return false;
+  const auto one_of = [](double x, std::initializer_list<double> known) {
+    return std::ranges::find(known, x) != known.end();
+  };
+  const std::size_t nodes = numbers_of_node * ring.contact.size() * at(ring.n_sectors());
+  for (std::span left = numbers.last(nodes); !left.empty(); left = left.subspan(numbers_of_node)) {
+    const std::span end = left.first(numbers_of_node).last(3);  // as save() has them
+    if (!one_of(end[0], {0, 1, 2, 3}) || !one_of(end[1], {0, 1, 2}) || !one_of(end[2], {-1, 0, 1}))
+      return false;
+  }
+  return std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
+}
+
+std::vector<double> RingWheel::save() const {
+  std::vector<double> out{spin_};
+  out.reserve(n_numbers(ring_, model_));
+  for (const Modes& s : modes_) {
+    put(s.state, out);
+    put(s.force, out);
+  }
+  for (const Memory& m : memory_) {
+    for (const Vec2 x : {m.force, m.filtered, m.place[0], m.place[1], m.place[2]})
+      out.insert(out.end(), {x.x, x.y});
+    out.insert(out.end(), {m.gap[0], m.gap[1], static_cast<double>(m.known),
+                           static_cast<double>(m.status), m.side});
+  }
+  return out;
+}
+
+void RingWheel::restore(std::span<const double> numbers) {
+  RONDO_DEMAND(is_saved(ring_, model_, numbers), numbers.size());
+  Reader from(numbers);
+  spin_ = from.next();
+  set_table(spin_);
+  has_matrices_ = false;
+  for (Modes& s : modes_) {
+    from.fill(s.state);
+    from.fill(s.force);
+  }
+  active_.clear();
+  for (std::size_t node = 0; node < memory_.size(); ++node) {
+    Memory& m = memory_[node];
+    m = {};
+    m.force = from.vec();
+    m.filtered = m.filtered_before = from.vec();
+    for (Vec2& place : m.place) place = from.vec();
+    for (double& gap : m.gap) gap = from.next();
+    m.known = static_cast<int>(from.next());
+    m.status = static_cast<Status>(static_cast<int>(from.next()));
+    m.side = from.next();
+    if (m.filtered != Vec2{}) active_.push_back(static_cast<int>(node));
+  }
+}
+
+}  // namespace rondo::rom
