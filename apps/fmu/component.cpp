@@ -22,7 +22,7 @@ nlohmann::json read_settings(const std::filesystem::path& file) {
   std::ifstream in(file);
   nlohmann::json settings = nlohmann::json::parse(in, nullptr, false);
   if (settings.is_object() && settings["guid"].is_string() && settings["step"].is_number() &&
-      settings["step_factor"].is_number())
+      settings["modes"].is_number_integer() && settings["reduced_step"].is_string())
     return settings;
   throw FileError(file.string(),
                   "is not there or damaged: fmuResourceLocation must be the folder "
@@ -41,7 +41,10 @@ Component::Component(const std::string& name, const std::string& resources, cons
   study::Case c = study::read_case(folder / "case.toml");
   start_ = start_values(c, settings["step"]);
   values_ = start_;
-  wheel_ = std::make_unique<Wheel>(std::move(c), folder / "model.h5", settings["step_factor"]);
+  study::RunOptions options;
+  options.reduced_modes = settings["modes"];
+  options.reduced_step = settings["reduced_step"];
+  wheel_ = std::make_unique<Wheel>(std::move(c), options);
   wheel_->check();
 }
 

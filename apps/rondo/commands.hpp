@@ -29,6 +29,7 @@ struct ModesArguments : CaseArguments {
 struct FmuReport {
   std::filesystem::path file;
   std::string identifier, guid;
+  int modes = 0;
   double step = 0.0;                           ///< [s]
   double tyre_mass = 0.0, tyre_inertia = 0.0;  ///< [kg], [kg m2]
   std::uintmax_t bytes = 0;

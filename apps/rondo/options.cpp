@@ -127,13 +127,13 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) 
 CLI::App* add_fmu(CLI::App& program, study::FmuRequest& r, Telling& tell) {
   CLI::App* fmu = program.add_subcommand(
       "fmu", "Makes an FMU (FMI 2.0, co-simulation) of a reduced wheel: hub motion in, forces out");
-  fmu->add_option("model", r.model, "File of the reduced model, made by rondo reduce")->required();
+  fmu->add_option("case", r.case_file, "Case file of the wheel and its ground")->required();
   fmu->add_option("-o,--output", r.output, "File of the FMU, e.g. wheel.fmu")->required();
   add_settings(*fmu, r.settings, "KEY=VALUE, which overrides a key of the case; repeatable");
   add_options(*fmu, fmu_options(r));
   add_telling(*fmu, tell, "Prints warnings and errors only");
   fmu->footer(
-      "Example:\n  rondo fmu model.h5 --case cases/quarter-car-bump.toml -o wheel.fmu\n"
+      "Example:\n  rondo fmu cases/quarter-car-bump.toml -o wheel.fmu\n"
       "Inputs, outputs and coupling: docs/fmu.md.");
   return fmu;
 }

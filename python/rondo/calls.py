@@ -145,13 +145,13 @@ def reduce(runs: Run | Place | Sequence[Run | Place], output: Place, *,
 
 
 @documented("fmu")
-def fmu(model: Place, output: Place, settings: Mapping[str, Any] | None = None, *,
-        case: Place | None = None, step_factor: float | None = None) -> pathlib.Path:
-    """The wheel of a reduced model as an FMU (`rondo fmu`), made by the program into the file
+def fmu(case: Place, output: Place, settings: Mapping[str, Any] | None = None, *,
+        modes: int | None = None, reduced_step: float | None = None) -> pathlib.Path:
+    """The wheel of a case, reduced, as an FMU (`rondo fmu`), made by the program into the file
     `output`."""
     options = options_in("fmu", locals())
-    model, file = place_of(model), place_of(output)
-    _command(["fmu", os.fspath(model), "-o", os.fspath(file), "--quiet",
+    case, file = place_of(case), place_of(output)
+    _command(["fmu", os.fspath(case), "-o", os.fspath(file), "--quiet",
               *_words(settings, options)], file)
     return file
 

@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """rondo run --reduced without a model: a reduced wheel with exact contact, made of the case."""
-import signal
-import subprocess
-import time
 import unittest
 
 import h5py
 import numpy as np
 
-from program import PROGRAM, ROOT, ProgramTest, history, replaced, run, summary
+from program import ROOT, history, replaced, run, summary
+from wheels import WheelTest
 
 STEADY = (ROOT / "cases" / "steady-rolling.toml").read_text()
 # The disk of that case, lowered in 0.02 s.
@@ -27,12 +25,9 @@ def mean(rows, name, since=0.15):
     return float(np.mean(np.asarray(rows[name])[late]))
 
 
-class Wheel(ProgramTest):
-    def wheel(self, *arguments, case=ROLLING, code=0, out="out"):
-        out = self.folder / out
-        done = run("run", self.case(case), "--reduced", "-o", out, *arguments)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return out, done
+class Wheel(WheelTest):
+    def wheel(self, *arguments, case=ROLLING, **more):
+        return super().wheel(*arguments, case=case, **more)
 
     def test_forces_are_those_of_steady_rolling(self):
         """Means over the pass of a sector of the full disk, by the steady solver; see there."""
@@ -72,20 +67,7 @@ class Wheel(ProgramTest):
     def test_it_resumes_to_the_same_bits(self):
         case = replaced(ROLLING, "end", "end = 4.0")
         self.wheel("--quiet", case=case, out="whole")
-        out = self.folder / "out"
-        command = [PROGRAM, "run", str(self.case(case)), "--reduced", "-o", str(out), "--resume",
-                   "--quiet"]
-        for rows in (300, 3000):
-            process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
-            while process.poll() is None:
-                done = out / "history.csv"
-                if done.exists() and done.read_bytes().count(b"\n") > rows:
-                    break
-                time.sleep(0.002)
-            self.assertIsNone(process.poll(), "the run was over too soon")
-            process.send_signal(signal.SIGTERM)
-            process.wait()
-            self.assertEqual(summary(out)["status"], "interrupted")
+        out, command = self.interrupted(case, (300, 3000))
         done = run("run", self.case(case), "-o", out, "--resume")
         self.assertEqual(done.returncode, 2)
         self.assertIn("the run to resume is one of a reduced wheel of", done.stderr)
@@ -93,13 +75,7 @@ class Wheel(ProgramTest):
         self.assertEqual(done.returncode, 2)
         self.assertIn("the same --reduced, --modes and --reduced-step", done.stderr)
         self.assertEqual(run(*command[1:]).returncode, 0)
-        for name in ("history.csv", "contact.csv"):
-            self.assertEqual((self.folder / "whole" / name).read_bytes(),
-                             (out / name).read_bytes(), name)
-        with h5py.File(self.folder / "whole" / "results.h5") as a, h5py.File(
-                out / "results.h5") as b:
-            for name in ("/snapshots/displacement", "/snapshots/velocity"):
-                np.testing.assert_array_equal(a[name][:], b[name][:])
+        self.same_bits(out)
 
     def test_a_spin_that_changes(self):
         """From braked to driven: the ledger closes, and the force turns round."""
@@ -132,8 +108,6 @@ class Wheel(ProgramTest):
             _, done = self.wheel(*arguments, *options, case=case, code=2)
             self.assertIn(text, done.stderr)
 
-        refused("follows its tables", case=replaced(ROLLING, "height", "height = 0.31") +
-                '[rim]\nfree = ["height"]\nmass = 100\ninertia = 1\n')
         refused("no restitution", "ground.restitution=0.5")
         refused("is a law of velocities", 'ground.impact="energy-safe"')
         refused("not for a wheel in three dimensions",

@@ -37,7 +37,7 @@ ALLOWED = {
     "statics/steady": SOLIDS | {"statics"},
     "modal": {"core", "mesh", "fem"},
     "pod": {"core", "mesh"},
-    "rom/wheel": {"core", "mesh", "fem", "contact", "contact/coupled", "statics"},
+    "rom/wheel": {"core", "mesh", "fem", "contact", "contact/coupled", "model", "statics"},
     "rom": SOLIDS | {"model", "integrators", "integrators/fused", "pod", "rom/wheel"},
     "case": SOLIDS | {"model"},
     "io/h5": {"core"},

@@ -9,7 +9,6 @@
 #include "documents/documents.hpp"
 #include "fmu/zip.hpp"
 #include "license_text.hpp"
-#include "rondo/analysis/reduced/reduced_file.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
@@ -36,22 +35,6 @@ std::string binary_text() {
                   "../lib/rondo; build or install rondo whole");
 }
 
-/// The case that is given, or that of the model's first run if it is one in time.
-fs::path case_file(const study::FmuRequest& a) {
-  if (!a.case_file.empty()) return a.case_file;
-  const std::vector<std::string> runs = study::read_reduced_file(a.model).runs;
-  const fs::path file = runs.empty() ? fs::path() : fs::path(runs.front()) / "case.toml";
-  std::error_code error;
-  if (!runs.empty() && fs::exists(file, error) &&
-      study::rules_of(study::read_case(file).analysis.kind).in_time)
-    return file;
-  throw request_error("--case", "",
-                      fmt::format("is needed: the first run behind {} is no motion in time, or no "
-                                  "longer there",
-                                  a.model.string()),
-                      "--case CASE.toml: ground, dampings, gravity and start of the wheel");
-}
-
 /// FNV-1a of both texts, twice.
 std::string guid_of(const std::string& a, const std::string& b) {
   std::array<std::uint64_t, 2> hash{0xcbf29ce484222325ULL, 0x9ae16a3b2f90404fULL};
@@ -64,7 +47,12 @@ std::string guid_of(const std::string& a, const std::string& b) {
 }
 
 study::Case read_checked(const study::FmuRequest& a) {
-  study::Case c = study::read_case(case_file(a), a.settings);
+  if (a.case_file.extension() == ".h5")
+    throw request_error("CASE", a.case_file.string(),
+                        "is a file of a reduced model, which the wheel of an FMU no longer needs: "
+                        "it is made of a case",
+                        "rondo fmu CASE.toml -o wheel.fmu");
+  study::Case c = study::read_case(a.case_file, a.settings);
   if (!study::rules_of(c.analysis.kind).in_time)
     throw study::case_error(c, "analysis.kind", "a wheel of an FMU moves in time", "\"dynamic\"");
   return c;
@@ -81,24 +69,27 @@ int fmu(const study::FmuRequest& a, Telling& tell) {
 #endif
   const study::Case c = read_checked(a);
   const std::string binary = binary_text();
-  fmu::Wheel wheel(c, a.model, a.step_factor);
+  study::RunOptions options;
+  options.reduced_modes = a.modes;
+  if (a.step) options.reduced_step = fmt::format("{:.17g}", *a.step);
+  fmu::Wheel wheel(c, options);
   fmu::Values values = fmu::start_values(c, 0.0);
   wheel.begin(values);
   for (const std::string& text : wheel.take_warnings()) spdlog::warn(text);
-  const std::string case_text = study::write_case(c), model = io::text_of(a.model);
+  const std::string case_text = study::write_case(c);
   fmu::Description d;
   d.identifier = fmu::identifier_of(a.output.stem().string());
   d.title = study::as_utf8(c.title);
-  d.guid = guid_of(case_text + fmt::format("{}", a.step_factor), model);
+  d.guid = guid_of(case_text, fmt::format("{} {:.17g}", wheel.n_modes(), wheel.step()));
   d.start = fmu::start_values(c, wheel.step());
   const Json settings = {{"guid", d.guid},
                          {"step", wheel.step()},
-                         {"step_factor", a.step_factor},
+                         {"modes", wheel.n_modes()},
+                         {"reduced_step", fmt::format("{:.17g}", wheel.step())},
                          {"build_record", study::build_record_json()}};
   write_zip(a.output, {{"modelDescription.xml", fmu::model_description(d)},
                        {"binaries/linux64/" + d.identifier + ".so", binary},
                        {"resources/case.toml", case_text},
-                       {"resources/model.h5", model},
                        {"resources/wheel.json", settings.dump(2) + "\n"},
                        {"documentation/index.html", fmu::index_page(d)},
                        {"documentation/LICENSE", license_text}});
@@ -106,6 +97,7 @@ int fmu(const study::FmuRequest& a, Telling& tell) {
   const FmuReport report{a.output,
                          d.identifier,
                          d.guid,
+                         wheel.n_modes(),
                          wheel.step(),
                          values.tyre_mass,
                          values.tyre_inertia,
@@ -114,6 +106,7 @@ int fmu(const study::FmuRequest& a, Telling& tell) {
     tell.result = fmu_document(report);
     return exit_done;
   }
+  fmt::print("modes              {}\n", report.modes);
   fmt::print("internal step      {:.6g} s at the most\n", report.step);
   fmt::print("tyre               {:.6g} kg, {:.6g} kg m2 for a width of 1 m: the hub's to have\n",
              report.tyre_mass, report.tyre_inertia);

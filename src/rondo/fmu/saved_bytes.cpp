@@ -46,17 +46,7 @@ class Archive {
     if (reads_) maybe = there != 0 ? std::optional<T>(T{}) : std::nullopt;
     if (maybe) (*this)(*maybe);
   }
-  void operator()(std::pair<int, Vec2>& one) {
-    (*this)(one.first);
-    (*this)(one.second);
-  }
-  void operator()(rom::SavedPhase& phase) { all(phase.share, phase.used, phase.portions); }
-  void operator()(rom::SavedContact& c) { all(c.steps, c.impulses, c.phases); }
-  void operator()(rom::SavedRim& rim) { all(rim.numbers, rim.displacement_before, rim.late); }
-  void operator()(rom::SavedReducedState& s) {
-    all(s.step, s.displacement, s.velocity, s.velocity_middle, s.velocity_carried, s.matrices,
-        s.contact, s.rim, s.ledger);
-  }
+  void operator()(dynamics::SavedState& s) { all(s.step, s.ring, s.ledger); }
   void operator()(SavedWheel& s) {
     all(s.values, s.dt, s.velocity_x, s.velocity_y, s.angular_velocity, s.state);
   }

@@ -6,11 +6,12 @@
 #include <array>
 #include <cmath>
 #include <mutex>
+#include <numbers>
 #include <utility>
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/out_of_range.hpp"
-#include "rondo/analysis/reduced/prepare.hpp"
+#include "rondo/analysis/reduced/prepare_wheel.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/process_wide.hpp"
 #include "rondo/integrators/start.hpp"
@@ -19,7 +20,7 @@
 namespace rondo::fmu {
 namespace {
 
-/// Only one thread at a time may read model files and build, because the HDF5 library requires it.
+/// Only one thread at a time builds: a mesh may come from a library that has one state.
 std::mutex& building() {
   static std::mutex mutex;
   return mutex;
@@ -63,14 +64,13 @@ struct Wheel::Sums {
 
 struct Wheel::Body {
   study::Case c;
-  study::RunOptions options;
   study::Setup setup;
-  study::ReducedRun run;
+  study::PreparedWheel wheel;
   dynamics::State start;
   study::Bounds bounds;
   double largest_step = 0.0;
   double mass = 0.0, inertia = 0.0;  ///< [kg/m], [kg·m]
-  std::unique_ptr<rom::ReducedIntegrator> integrator;
+  std::unique_ptr<rom::WheelRun> integrator;
   study::ContactStatistics contact;
   Values parameters;   ///< parameters with which it was made
   rom::RimVector hub;  ///< at the last communication point
@@ -79,8 +79,8 @@ struct Wheel::Body {
   double dt = 0.0;  ///< 0: no step was made
 };
 
-Wheel::Wheel(study::Case c, std::filesystem::path model, double step_factor)
-    : case_(std::move(c)), model_(std::move(model)), step_factor_(step_factor) {}
+Wheel::Wheel(study::Case c, study::RunOptions options)
+    : case_(std::move(c)), options_(std::move(options)) {}
 
 Wheel::~Wheel() {
   const BorrowedBlas blas;
@@ -100,6 +100,10 @@ double Wheel::step() const noexcept {
   return body_ ? body_->largest_step : 0.0;
 }
 
+int Wheel::n_modes() const {
+  return body_ ? body_->wheel.n_modes() : 0;
+}
+
 void Wheel::begin(Values& values) {
   check();
   const BorrowedBlas blas;
@@ -107,28 +111,25 @@ void Wheel::begin(Values& values) {
   auto body = std::make_unique<Body>();
   Body& b = *body;
   b.c = case_of(case_, values);
-  b.options.reduced = model_;
-  b.options.step_factor = step_factor_;
-  b.options.threads = 1;
   b.setup = study::build(b.c, 1);
-  b.run = study::prepare_reduced(b.c, b.options, b.setup);
+  study::prepare_wheel(b.c, options_, true, b.setup, b.wheel);
   b.largest_step = values.step > 0.0 ? values.step : b.setup.model.dt;
   b.start =
       dynamics::start(b.setup.model, b.setup.displacement, b.setup.velocity, b.setup.half_velocity);
   b.bounds = {study::residual_bound, study::largest_strain_energy(b.setup), "", false, "J/m"};
-  b.mass = b.setup.model.rim->mass + b.run.file.model.rim->mass;
-  b.inertia = b.setup.model.rim->inertia + b.run.file.model.rim->inertia;
   body_ = std::move(body);
-  // Warnings about [motion] and the step of a run are replaced by those about the inputs.
-  for (const auto* said : {&b.setup.warnings, &b.run.warnings})
+  // Warnings about [motion] are replaced by those about the inputs.
+  for (const auto* said : {&b.setup.warnings, &b.wheel.warnings})
     for (const std::string& text : *said)
-      if (!text.starts_with("motion.") && !text.starts_with("--step-factor")) warn(text);
+      if (!text.starts_with("motion.")) warn(text);
+  b.hub = velocities(values);
+  make_integrator(b.largest_step);
+  b.mass = b.integrator->rim()->whole_mass();
+  b.inertia = b.integrator->rim()->whole_inertia();
   values.tyre_mass = values.width * b.mass;
   values.tyre_inertia = values.width * b.inertia;
-  b.hub = velocities(values);
   b.parameters = values;
-  warn_of_points(values, b.largest_step);
-  make_integrator(b.largest_step);
+  warn_of_step(values, b.largest_step);
   const std::string wrong = make_steps(values, 1);
   Values first = values;
   fill(values, b.largest_step, first);
@@ -141,17 +142,15 @@ void Wheel::begin(Values& values) {
   b.integrator.reset();
   b.dt = 0.0;
   b.contact = {};
-  warn_of_ranges(values);
+  warn_of_spin(values);
   if (!wrong.empty()) warn("a first step of the hub as it starts fails: " + wrong);
 }
 
 void Wheel::make_integrator(double dt) {
   Body& b = *body_;
   b.setup.model.dt = dt;
-  b.integrator = std::make_unique<rom::ReducedIntegrator>(
-      rom::IntegratorInput{b.setup.mesh, b.setup.model, b.run.file.model, b.run.figures,
-                           rom::StepScheme::midpoint, false},
-      b.start);
+  b.integrator = std::make_unique<rom::WheelRun>(b.setup.model, *b.wheel.ring, b.wheel.model,
+                                                 b.wheel.figures, b.start);
   b.dt = dt;
 }
 
@@ -159,29 +158,30 @@ double Wheel::first_step(double length) const {
   return length / std::ceil(length / body_->largest_step * (1.0 - 1e-9));
 }
 
-double Wheel::points_passed(const Values& values, double dt) const {
+double Wheel::sectors_passed(const Values& values, double dt) const {
   const Body& b = *body_;
   const double spin = std::max(std::abs(b.hub[2]), std::abs(values.hub_angular_velocity));
-  return study::points_passed(b.setup, spin * dt, b.run);
+  return spin * dt * b.setup.mesh.n_sectors / (2.0 * std::numbers::pi);
 }
 
-std::string Wheel::points_text(double points, double dt) {
+std::string Wheel::passed_text(double sectors, double dt) {
   return fmt::format(
-      "the wheel turns by {:.3g} contact points in an internal step; contact wants 1 at the most: "
-      "a step of {:.3g} s; more than {} are refused",
-      points, dt / points, most_points);
+      "the wheel turns by {:.3g} sectors of its mesh in an internal step; contact wants {} at the "
+      "most: a step of {:.3g} s; more than {} are refused",
+      sectors, good_sectors, dt * good_sectors / sectors, most_sectors);
 }
 
-void Wheel::warn_of_points(const Values& values, double dt) {
-  const double points = points_passed(values, dt);
-  if (points > 1.0 && said_.insert("points").second) warnings_.push_back(points_text(points, dt));
+void Wheel::warn_of_step(const Values& values, double dt) {
+  const double sectors = sectors_passed(values, dt);
+  if (sectors > good_sectors && said_.insert("sectors").second)
+    warnings_.push_back(passed_text(sectors, dt));
 }
 
 std::string Wheel::refuse(const Values& values, double length, double slack) const {
   if (std::string wrong = refuse_length(length, slack); !wrong.empty()) return wrong;
   const double dt = body_->dt > 0.0 ? body_->dt : first_step(length);
-  const double points = points_passed(values, dt);
-  return points > most_points ? points_text(points, dt) : std::string();
+  const double sectors = sectors_passed(values, dt);
+  return sectors > most_sectors ? passed_text(sectors, dt) : std::string();
 }
 
 std::string Wheel::refuse_length(double length, double slack) const {
@@ -207,8 +207,8 @@ std::string Wheel::go_on(Values& values, double length) {
   const BorrowedBlas blas;
   if (b.dt == 0.0) make_integrator(first_step(length));
   const auto n = static_cast<long long>(std::llround(length / b.dt));
-  warn_of_ranges(values);
-  warn_of_points(values, b.dt);
+  warn_of_spin(values);
+  warn_of_step(values, b.dt);
   std::string wrong = make_steps(values, n);
   if (!wrong.empty()) return wrong;
   Values to = values;
@@ -275,20 +275,13 @@ void Wheel::warn(std::string text) {
   if (said_.insert(text).second) warnings_.push_back(std::move(text));
 }
 
-/// Warns once for each variable, because the text would differ with every value out of range.
-void Wheel::warn_of_ranges(const Values& v) {
-  const study::ModelRanges& built = body_->run.file.ranges;
-  const auto check = [&](const char* what, const study::ModelRange& range, double value,
-                         double scale) {
-    study::ModelRange wanted;
-    wanted.take(value);
-    std::string text = study::outside(what, range, wanted, scale * std::abs(value));
-    if (!text.empty() && said_.insert(std::string("range of ") + what).second)
-      warnings_.push_back(std::move(text));
-  };
-  check("hub_angular_velocity", built.angular_velocity, v.hub_angular_velocity, 20.0);
-  check("hub_velocity_x", built.speed, v.hub_velocity_x, 20.0);
-  check("hub_height above ground_height", built.height, v.hub_height - v.ground_height, 1.0);
+void Wheel::warn_of_spin(const Values& v) {
+  const double known = body_->wheel.known_spin, spin = std::abs(v.hub_angular_velocity);
+  if (spin > known && said_.insert("spin").second)
+    warnings_.push_back(
+        fmt::format("hub_angular_velocity = {:.5g} rad/s: what no mode has is known up to {:.5g} "
+                    "rad/s, and is extrapolated beyond it",
+                    v.hub_angular_velocity, known));
 }
 
 void Wheel::forget_warnings() {
@@ -323,7 +316,7 @@ void Wheel::restore(const SavedWheel& s, Values& values) {
   Body& b = *body_;
   if (s.state) {
     if (b.dt != s.dt) make_integrator(s.dt);
-    if (!b.integrator->fits(*s.state))
+    if (!rom::WheelRun::is_saved(b.setup.model, *b.wheel.ring, b.wheel.model, s.state->ring))
       throw request_error("state", "", "is of another wheel", "one of this FMU");
     b.integrator->restore(*s.state);
   }

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
@@ -35,22 +36,33 @@ Ring ring_of(const dynamics::Model& model) {
 
 /// One table for a spin that stays; else three between 0 and the largest, where a polynomial in s²
 /// errs least (Chebyshev).
-WheelModel make_wheel_model(const Ring& ring, const dynamics::Motion& motion,
-                            const ModeChoice& modes) {
+WheelModel make_wheel_model(const Ring& ring, const ModeChoice& modes, const KnownSpins& spins) {
   const OneBlasThread one;
   WheelModel wheel;
   wheel.harmonics = ring_modes(ring, modes);
   for (const Complex x : ring.place) wheel.radius = std::max(wheel.radius, std::hypot(x.re, x.im));
-  const double most = std::pow(motion.angular_velocity.largest(), 2);
-  if (motion.angular_velocity.points().size() == 1 || most == 0.0) {
-    wheel.squares = {most};
-  } else {
-    for (int i = 0; i < 3; ++i)
-      wheel.squares.push_back(0.5 * most * (1.0 - std::cos(std::numbers::pi * (2 * i + 1) / 6.0)));
+  const auto residual = [&](double square) {
+    return ring_residual(ring, wheel.harmonics, square, ResidualForm::convected);
+  };
+  if (!spins.change || spins.most == 0.0) {
+    wheel.largest_spin = spins.least;
+    wheel.squares = {spins.least * spins.least};
+    wheel.residuals.push_back(residual(wheel.squares[0]));
+    return wheel;
   }
-  for (const double square : wheel.squares)
-    wheel.residuals.push_back(
-        ring_residual(ring, wheel.harmonics, square, ResidualForm::convected));
+  const auto place = [](double most, int i) {
+    return 0.5 * most * most * (1.0 - std::cos(std::numbers::pi * (2 * i + 1) / 6.0));
+  };
+  double most = spins.most;
+  RingResidual last = residual(place(most, 2));
+  while (!last.made_static.empty() && most > spins.least) {
+    most = std::max(spins.least, 0.9 * most);
+    last = residual(place(most, 2));
+  }
+  wheel.largest_spin = most;
+  for (int i = 0; i < 3; ++i) wheel.squares.push_back(place(most, i));
+  for (int i = 0; i < 2; ++i) wheel.residuals.push_back(residual(wheel.squares[at(i)]));
+  wheel.residuals.push_back(std::move(last));
   return wheel;
 }
 
@@ -61,22 +73,35 @@ WheelRun::WheelRun(const dynamics::Model& model, const Ring& ring, const WheelMo
       figures_(figures),
       candidate_(model.n_nodes(), -1),
       wheel_(ring, wheel, model.contact->ground, settings_of(model)) {
-  RONDO_DEMAND(model.dt > 0.0 && !model.rim, model.dt);
+  RONDO_DEMAND(model.dt > 0.0, model.dt);
   for (std::size_t i = 0; i < model.contact->nodes.size(); ++i)
     candidate_[at(model.contact->nodes[i])] = static_cast<int>(i);
   active_.reserve(model.contact->nodes.size());
-  WheelMotion start = motion_of(0);
+  if (model.rim) rim_.emplace(model, settings_of(model).theta, wheel.largest_spin);
+  begin(at_start);
+}
+
+void WheelRun::begin(const dynamics::State& at_start) {
+  WheelMotion start = rim_ ? rim_->at_start() : motion_of(0);
   start.angle_next = start.angle;
   start.center_next = start.center;
-  start.spin_next = -model.motion.angular_velocity.at(0.0);
+  start.spin_next = -model_.motion.angular_velocity.at(0.0);
   start.spin_rate = 0.0;
   wheel_.start(start, at_start.u, at_start.v);
-  frame_ = dynamics::frame_step(model.motion, 0, model.dt);
-  const WheelEnergy of = wheel_.energy_at_start();
+  frame_ = dynamics::frame_step(model_.motion, 0, model_.dt);
+  if (rim_) {
+    rim_->start(wheel_.sums());
+    frame_ = rim_->frame();
+  }
+  ledger_.compare(energy_of(wheel_.energy_at_start(!rim_)));
+}
+
+dynamics::StepEnergy WheelRun::energy_of(const WheelEnergy& wheel) const {
   dynamics::StepEnergy energy;
-  energy.kinetic = of.kinetic;
-  energy.strain = of.elastic;
-  ledger_.compare(energy);
+  energy.kinetic = wheel.kinetic;
+  energy.strain = wheel.elastic + wheel.residual;
+  if (rim_) rim_->add_energy(energy);
+  return energy;
 }
 
 /// Kinks of the motion are spread over the step that ends there.
@@ -120,7 +145,7 @@ void WheelRun::report_contact(const WheelReport& wheel, dynamics::ContactReport&
   }
   report.dissipation_friction = wheel.energy.friction;
   report.loss_impact = wheel.energy.arrival;
-  report.work_rim = -wheel.energy.rim;
+  report.work_rim = rim_ ? 0.0 : -wheel.energy.rim;
   report.work = report.work_rim - report.dissipation_friction - report.loss_impact;
 }
 
@@ -130,31 +155,30 @@ void WheelRun::count(const WheelReport& wheel, double seconds) {
   figures_.iterations_max = std::max(figures_.iterations_max, wheel.iterations);
   figures_.contacts_max = std::max(figures_.contacts_max, static_cast<int>(wheel.contacts.size()));
   figures_.pivoted += wheel.pivoted ? 1 : 0;
-  figures_.not_converged += is_solved(wheel) ? 0 : 1;
+  figures_.not_converged += is_solved(wheel) && !(rim_ && rim_->gave_up()) ? 0 : 1;
+  if (rim_) figures_.spin_max = std::max(figures_.spin_max, std::abs(rim_->spin()));
   figures_.wall_s += seconds;
   figures_.slowest_step_s = std::max(figures_.slowest_step_s, seconds);
 }
 
 void WheelRun::step(dynamics::StepReport& report) {
   const auto begin = Clock::now();
-  const WheelReport wheel = wheel_.step(motion_of(n_));
+  dynamics::Works works;
+  const WheelReport wheel = rim_ ? wheel_.step(n_, *rim_, works) : wheel_.step(motion_of(n_));
   ++n_;
-  frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);
+  frame_ = rim_ ? rim_->frame() : dynamics::frame_step(model_.motion, n_, model_.dt);
   report = {};
+  if (rim_) report.rim = rim_->report();
   report.step = n_;
   report.frame = frame_;
   report_contact(wheel, report.contact);
-  dynamics::Works works;
   dynamics::set_contact_works(report.contact, works);
   works.frame = wheel.energy.frame;
   works.dissipation_mass = wheel.energy.by_mass;
   works.dissipation_stiffness = wheel.energy.by_stiffness + wheel.energy.by_residual;
-  works.scheme = wheel.energy.scheme;
-  dynamics::StepEnergy energy;
-  energy.kinetic = wheel.energy.kinetic;
-  energy.strain = wheel.energy.elastic + wheel.energy.residual;
+  works.scheme += wheel.energy.scheme;
   ledger_.add_works(works);
-  ledger_.compare(energy);
+  ledger_.compare(energy_of(wheel.energy));
   report.balance = ledger_.last();
   active_.clear();
   for (const WheelContact& c : wheel.contacts) {
@@ -191,19 +215,38 @@ void WheelRun::fields(dynamics::State& state) const noexcept {
   wheel_.velocity(frame_.angle - 0.5 * frame_.turn_before, state.v_next);
 }
 
+std::size_t WheelRun::n_numbers(const dynamics::Model& model, const Ring& ring,
+                                const WheelModel& wheel) noexcept {
+  return RingWheel::n_numbers(ring, wheel) + (model.rim ? WheelRim::n_numbers : 0);
+}
+
+bool WheelRun::is_saved(const dynamics::Model& model, const Ring& ring, const WheelModel& wheel,
+                        std::span<const double> numbers) noexcept {
+  return numbers.size() == n_numbers(model, ring, wheel) &&
+         RingWheel::is_saved(ring, wheel, numbers.first(RingWheel::n_numbers(ring, wheel))) &&
+         std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
+}
+
 dynamics::SavedState WheelRun::save() const {
   dynamics::SavedState saved;
   saved.step = n_;
   saved.ring = wheel_.save();
+  if (rim_) {
+    const std::vector<double> rim = rim_->save();
+    saved.ring.insert(saved.ring.end(), rim.begin(), rim.end());
+  }
   saved.ledger = ledger_.save();
   return saved;
 }
 
 void WheelRun::restore(const dynamics::SavedState& saved) {
   n_ = saved.step;
-  wheel_.restore(saved.ring);
+  const std::span<const double> numbers = saved.ring;
+  const std::size_t of_rim = rim_ ? WheelRim::n_numbers : 0;
+  wheel_.restore(numbers.first(numbers.size() - of_rim));
+  if (rim_) rim_->restore(n_, numbers.last(of_rim));
   ledger_.restore(saved.ledger);
-  frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);
+  frame_ = rim_ ? rim_->frame() : dynamics::frame_step(model_.motion, n_, model_.dt);
 }
 
 }  // namespace rondo::rom

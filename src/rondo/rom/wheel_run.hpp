@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The steps of a reduced wheel with exact contact (wheel/ring_wheel.hpp) with the interface
-/// of a full run, on a rim that follows its tables.
+/// of a full run, on a rim that follows its tables or moves freely.
 #pragma once
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "rondo/core/process_wide.hpp"
@@ -17,14 +18,22 @@ struct WheelFigures {
   long long iterations = 0;  ///< of the contact law, all steps
   int iterations_max = 0, contacts_max = 0;
   long long pivoted = 0;        ///< steps in which Newton's method did not end
-  long long not_converged = 0;  ///< steps whose contact law is not met to 1e-9
+  long long not_converged = 0;  ///< steps whose contact law is not met to 1e-9, or whose brake
+                                ///< does not hold
+  double spin_max = 0.0;        ///< largest |s| of a rim that moves                     [rad/s]
   double wall_s = 0.0, slowest_step_s = 0.0;
 };
 
 /// @param model with `sector` and a contact without mass: its masses are 0 at contact nodes
 [[nodiscard]] Ring ring_of(const dynamics::Model& model);
-[[nodiscard]] WheelModel make_wheel_model(const Ring& ring, const dynamics::Motion& motion,
-                                          const ModeChoice& modes);
+/// Spins up to which the residual of a wheel is to be known [rad/s].
+struct KnownSpins {
+  double least = 0.0;
+  double most = 0.0;    ///< where no spin up to it is critical
+  bool change = false;  ///< false: the spin is always `least`, or its opposite
+};
+[[nodiscard]] WheelModel make_wheel_model(const Ring& ring, const ModeChoice& modes,
+                                          const KnownSpins& spins);
 
 class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
  public:
@@ -32,6 +41,17 @@ class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
   /// @param at_start u and v at t = 0, co-rotating frame; what is outside of the modes is lost
   WheelRun(const dynamics::Model& model, const Ring& ring, const WheelModel& wheel,
            WheelFigures& figures, const dynamics::State& at_start);
+
+  /// Number of numbers in SavedState::ring.
+  [[nodiscard]] static std::size_t n_numbers(const dynamics::Model& model, const Ring& ring,
+                                             const WheelModel& wheel) noexcept;
+  /// Whether numbers may come from save() of a run of this wheel.
+  [[nodiscard]] static bool is_saved(const dynamics::Model& model, const Ring& ring,
+                                     const WheelModel& wheel,
+                                     std::span<const double> numbers) noexcept;
+  /// Of a rim that moves: WheelRim::lead().
+  void lead(const RimVector& end) noexcept { rim_->lead(end); }
+  [[nodiscard]] const WheelRim* rim() const noexcept { return rim_ ? &*rim_ : nullptr; }
 
   void advance(std::span<dynamics::StepReport> reports,
                dynamics::State* last = nullptr) noexcept override;
@@ -42,7 +62,9 @@ class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
 
  private:
   [[nodiscard]] WheelMotion motion_of(long long step) const;
+  void begin(const dynamics::State& at_start);
   void step(dynamics::StepReport& report);
+  [[nodiscard]] dynamics::StepEnergy energy_of(const WheelEnergy& wheel) const;
   void count(const WheelReport& wheel, double seconds);
   void report_contact(const WheelReport& wheel, dynamics::ContactReport& report) const;
   [[nodiscard]] int node_of(int contact_node) const noexcept;
@@ -54,6 +76,7 @@ class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
   WheelFigures& figures_;
   std::vector<int> candidate_;  ///< (n) place among the candidates; -1: none
   RingWheel wheel_;
+  std::optional<WheelRim> rim_;
   dynamics::Ledger ledger_;
   long long n_ = 0;  ///< number of steps made
   dynamics::FrameStep frame_;

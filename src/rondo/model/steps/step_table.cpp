@@ -196,8 +196,6 @@ constexpr std::array limits{
     Limit{has::massless, has::reduced, any,
           "a reduced run itself decides whether contact nodes have mass"},
     Limit{has::other_scheme, has::reduced, any, "a reduced run has a scheme of its own"},
-    Limit{has::loaded_rim, has::exact_wheel, any,
-          "the rim of a reduced wheel of the case follows its tables"},
     Limit{has::restitution, has::exact_wheel, any,
           "contact nodes of a reduced wheel of the case have no mass, hence no restitution"},
     Limit{has::energy_safe, has::exact_wheel, any,

@@ -50,7 +50,8 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
     const Index r = h.squares.size(), c = h.contact.rows();
     const auto zero = [](Index size) { return Vector(Vector::Zero(size)); };
     modes_.push_back({zero(2 * r), zero(2 * r), zero(r), zero(r), Matrix::Zero(2 * r, 2 * r),
-                      Matrix::Zero(2 * r, r), zero(c), zero(c), zero(2 * r)});
+                      Matrix::Zero(2 * r, r), zero(c), zero(c), zero(2 * r), zero(2 * r),
+                      zero(2 * r), zero(c), zero(c), zero(c), zero(c)});
   }
 }
 
@@ -72,22 +73,24 @@ void RingWheel::set_table(double spin) {
 
 /// The matrices of a step, and the answers of the contact nodes at its end.
 void RingWheel::use_spin(const WheelMotion& m) {
-  const bool same = has_matrices_ && spin_rate_ == 0.0 && spin_ == m.spin_next;
-  if (m.spin_rate == 0.0 && same) return;
+  const double rate = m.kept_spin ? 0.0 : m.spin_rate, end = m.kept_spin.value_or(m.spin_next);
+  const bool same = has_matrices_ && spin_rate_ == 0.0 && spin_ == end;
+  new_table_ = rate != 0.0 || !same;
+  if (!new_table_) return;
   std::swap(table_before_, table_);
-  spin_ = m.spin_next;
-  spin_rate_ = m.spin_rate;
+  spin_ = end;
+  spin_rate_ = rate;
   has_matrices_ = true;
   const double dt = settings_.dt;
-  const double spin = m.spin_rate == 0.0 ? m.spin_next : (m.angle_next - m.angle) / dt;
-  set_table(m.spin_next);
+  const double spin = rate == 0.0 ? end : (m.angle_next - m.angle) / dt;
+  set_table(end);
   for (std::size_t h = 0; h < harmonics_.size(); ++h) {
     const RingHarmonic& of = harmonics_[h];
     const Index r = of.squares.size();
     const Complexes wander(0.0, -of.k * spin);
     Matrix a = Matrix::Zero(2 * r, 2 * r);
     a.topRightCorner(r, r).setIdentity();
-    a.bottomLeftCorner(r, r) = -m.spin_rate * of.coriolis;
+    a.bottomLeftCorner(r, r) = -rate * of.coriolis;
     a.bottomRightCorner(r, r) = -2.0 * spin * of.coriolis;
     for (Index j = 0; j < r; ++j) {
       a(j, j) += wander;
@@ -100,7 +103,13 @@ void RingWheel::use_spin(const WheelMotion& m) {
     modes_[h].carry = inverse * (one + 0.5 * dt * a);
     modes_[h].push = dt * inverse.rightCols(r);
   }
+  shift_modes();
   fill_compliance();
+}
+
+/// The angle at which the modes are at the end of the step.
+double RingWheel::waves_at(const WheelMotion& m) const noexcept {
+  return m.kept_spin ? m.angle + settings_.dt * *m.kept_spin : m.angle_next;
 }
 
 /// W[lag] = G[lag]/(1 + β/Δt) + the modes' answer.
@@ -148,6 +157,7 @@ void RingWheel::move_modes(const WheelMotion& m) {
     s.outside.setZero();
     if (of.k == 0) s.outside = spin * spin * of.reference - m.spin_rate * of.turned;
     if (of.k == 1) s.outside -= 0.5 * back * of.translation.conjugate();
+    if (m.kept_spin) s.outside.noalias() -= m.spin_rate * (of.coriolis * s.state.head(r));
     s.before = s.state;
     s.work.head(r) = s.outside + (1.0 - settings_.theta) * s.force;
     s.state.noalias() = s.carry * s.before;
@@ -162,8 +172,6 @@ WheelReport RingWheel::step(const WheelMotion& m) {
   use_spin(m);
   move_modes(m);
   find_near(m, lag / (1.0 + lag));
-  solved_.clear();
-  law_.clear();
   solve(m, settings_.friction, report);
   take_forces(report);
   account(m, report);

@@ -13,6 +13,7 @@
 #include "rondo/core/vec2.hpp"
 #include "rondo/rom/wheel/gap_law.hpp"
 #include "rondo/rom/wheel/ring_harmonics.hpp"
+#include "rondo/rom/wheel/wheel_rim.hpp"
 
 namespace rondo::rom {
 
@@ -37,24 +38,16 @@ struct WheelModel {
   std::vector<double> squares;          ///< s² of the residuals: one, or three between which they
                                         ///< are interpolated [1/s²]
   std::vector<RingResidual> residuals;  ///< at these
+  double largest_spin = 0.0;            ///< up to which these are good                    [rad/s]
   double radius = 0.0;                  ///< largest |X| [m]
-};
-
-/// The rim over a step from t_n to t_{n+1}.
-struct WheelMotion {
-  double angle = 0.0, angle_next = 0.0;  ///< θ, counter-clockwise                      [rad]
-  double spin_next = 0.0;                ///< s at t_{n+1}                            [rad/s]
-  double spin_rate = 0.0;                ///< (s_{n+1} - s_n)/Δt                     [rad/s²]
-  Vec2 center, center_next;              ///< [m]
-  Vec2 pull;                             ///< mean of c̈ - g, fixed frame               [m/s²]
 };
 
 /// Energies at the end of a step, and the works in it [J/m].
 struct WheelEnergy {
-  double kinetic = 0.0;                      ///< of the modes, in the co-rotating frame
-  double elastic = 0.0;                      ///< of the modes, less what the spin softens them by
-  double residual = 0.0;                     ///< of the compliance of the contact nodes
-  double frame = 0.0;                        ///< work of the inertia of the frame and of gravity
+  double kinetic = 0.0;   ///< of the modes, in the co-rotating frame
+  double elastic = 0.0;   ///< of the modes; on tables less what the spin softens them by
+  double residual = 0.0;  ///< of the compliance of the contact nodes
+  double frame = 0.0;     ///< work of the inertia of the frame and of gravity
   double by_mass = 0.0, by_stiffness = 0.0;  ///< taken by damping of the modes
   double by_residual = 0.0;                  ///< taken by damping of the residual
   double friction = 0.0;                     ///< taken by friction
@@ -97,8 +90,14 @@ class RingWheel {
   void start(const WheelMotion& motion, std::span<const Vec2> u, std::span<const Vec2> v);
   /// Allocates nothing unless the spin changes or the law of contact needs pivoting.
   [[nodiscard]] WheelReport step(const WheelMotion& motion);
+  /// The same on a rim that moves freely. Adds the works of the rim, the scheme's among them.
+  /// @param n number of steps made
+  [[nodiscard]] WheelReport step(long long n, WheelRim& rim, dynamics::Works& works);
+  /// What the deformation holds of the momentum of the whole, after the last step.
+  [[nodiscard]] WheelSums sums() const;
 
-  [[nodiscard]] WheelEnergy energy_at_start() const;
+  /// @param softened by the spin: elastic energy as of steps on tables
+  [[nodiscard]] WheelEnergy energy_at_start(bool softened) const;
   /// Displacement of the free nodes after the last step, in the co-rotating frame; (n).
   /// @param angle θ at its end. @param contact_alone writes only that of the contact nodes
   void displacement(double angle, bool contact_alone, std::span<Vec2> u) const;
@@ -128,14 +127,26 @@ class RingWheel {
     Matrix carry, push;      ///< (2r, 2r) E, (2r, r) Δt S: of the step
     Vector contact, middle;  ///< (2C) φ_c y without new forces, φ_c p in the middle of the step
     Vector work;             ///< (2r)
+    // On a rim that moves: what unit accelerations along x and of the angle do.
+    Vector shift, twist;                  ///< (2r) at the end of the step
+    Vector shift_contact, twist_contact;  ///< (2C) φ_c y of these
+    Vector by_rate, by_place;             ///< (2C) momenta by new forces, through p and through y
   };
+  using Columns = std::array<Vec2, 3>;
   /// A contact node near the ground.
   struct Near {
     int node = 0;
     Complex turn;  ///< e^{iψ} at the end of the step
+    Complex wave;  ///< the same where the modes are, which only a rim that moves distinguishes
     Vec2 free;     ///< place from the center at the end of the step without new forces   [m]
     Vec2 place;    ///< and with them                                                     [m]
+    Vec2 own, own_before;  ///< forces at both ends of the step, in the frame of the sector [N/m]
     bool candidate = false;
+    // On a rim that moves.
+    Vec2 still;     ///< `free` without accelerations beyond those of WheelRim::begin       [m]
+    Columns moved;  ///< change of `place` by unit accelerations of x, y and the angle
+    Columns push;   ///< momenta of x, y and the angle by a force: their products with it
+    Columns reply;  ///< and the accelerations by it
   };
   /// What is remembered of a contact node.
   struct Memory {
@@ -156,12 +167,22 @@ class RingWheel {
   using Block = contact::Block;
   static constexpr std::size_t numbers_of_node = 15;
   void use_spin(const WheelMotion& motion);
+  void shift_modes();
+  void twist_modes();
+  [[nodiscard]] Eigen::Matrix3d momenta_by_rate(double spin) const;
+  void find_columns(const WheelMotion& motion);
+  void accelerate_near(const RimVector& z, const Eigen::Matrix3d& answer);
+  [[nodiscard]] RimVector push_on_rim() const;
+  void accelerate_modes(const RimVector& z);
+  [[nodiscard]] WheelRim::End end_of(const WheelReport& report, double ahead) const;
+  void turn_modes(double angle);
   void begin(const WheelMotion& motion);
   void look_at_start(const WheelMotion& motion);
   void project(double angle, std::span<const Vec2> field, bool velocity);
   void set_table(double spin);
   void fill_compliance();
   void move_modes(const WheelMotion& motion);
+  [[nodiscard]] double waves_at(const WheelMotion& motion) const noexcept;
   void find_near(const WheelMotion& motion, double filter);
   [[nodiscard]] Vec2 displacement(int node, Complex turn, double filter) const;
   [[nodiscard]] Vec2 distance(const Near& near, const WheelMotion& motion) const;
@@ -174,7 +195,7 @@ class RingWheel {
   void take_forces(WheelReport& report);
   void account(const WheelMotion& motion, WheelReport& report);
   void account_modes(const WheelMotion& motion, WheelEnergy& energy) const;
-  [[nodiscard]] double work_on_modes(double angle, bool at_end) const;
+  [[nodiscard]] double work_on_modes(double angle, Vec2 Near::*force) const;
   [[nodiscard]] Products products(const RingResidual& table) const;
   void remember(const WheelMotion& motion);
   struct Rows;
@@ -206,7 +227,8 @@ class RingWheel {
   std::array<double, 3> shares_{1.0};    ///< of the model's residuals in the table
   std::vector<double> compliance_;       ///< (N, 2C, 2C) W[lag]                       [m²/N]
   double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
-  bool has_matrices_ = false;
+  bool has_matrices_ = false, new_table_ = false;
+  bool on_moving_rim_ = false;  ///< in the law
   std::vector<Modes> modes_;
   std::vector<Memory> memory_;  ///< (N C)
   std::vector<int> active_;     ///< nodes with a filtered force, ascending

@@ -28,9 +28,17 @@ double landing(double g, double b, double a) noexcept {
   return std::min(1.0, 2.0 * g / (-b + std::sqrt(inside)));
 }
 
+/// What a force does to a place through the rim.
+Vec2 by_rim(const std::array<Vec2, 3>& moved, const std::array<Vec2, 3>& reply,
+            Vec2 force) noexcept {
+  return dot(reply[0], force) * moved[0] + dot(reply[1], force) * moved[1] +
+         dot(reply[2], force) * moved[2];
+}
+
 }  // namespace
 
-/// Displacement of a contact node, in the frame of its sector. @param filter share of the filtered
+/// Displacement of a contact node, in the frame of its sector. @param turn of the modes
+/// @param filter share of the filtered
 /// forces that is left at the end of the step
 Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
   const Index c = Index{2} * (node % n_contact_);
@@ -50,7 +58,7 @@ Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
 void RingWheel::find_near(const WheelMotion& m, double filter) {
   near_.clear();
   const double limit = ground_.top() + near_share * model_.radius - m.center_next.y;
-  const Complex rotation = turned_by(m.angle_next);
+  const Complex rotation = turned_by(m.angle_next), waves = turned_by(waves_at(m));
   for (int j = 0; j < ring_.n_sectors(); ++j) {
     const Complex turn = rotation * ring_.stiffness.turn[at(j)];
     for (int c = 0; c < n_contact_; ++c) {
@@ -59,7 +67,9 @@ void RingWheel::find_near(const WheelMotion& m, double filter) {
       Near near;
       near.node = node;
       near.turn = turn;
-      near.free = near.place = turn * (arm(node) + displacement(node, turn, filter));
+      near.own_before = memory_of(node).force;
+      near.wave = waves * ring_.stiffness.turn[at(j)];
+      near.free = near.place = turn * (arm(node) + displacement(node, near.wave, filter));
       near_.push_back(near);
     }
   }
@@ -126,6 +136,13 @@ void RingWheel::fill_law(const WheelMotion& m) {
       w(row + 1, column) = dot(to_tangent, pushed);
       w(row, column + 1) = dot(to_normal, pulled);
       w(row + 1, column + 1) = dot(to_tangent, pulled);
+      if (!on_moving_rim_) continue;
+      const Vec2 by_normal = by_rim(near.moved, other.reply, touch_[j].normal),
+                 by_tangent = by_rim(near.moved, other.reply, tangent_of(touch_[j].normal));
+      w(row, column) += dot(normal, by_normal);
+      w(row + 1, column) += dot(tangent, by_normal);
+      w(row, column + 1) += dot(normal, by_tangent);
+      w(row + 1, column + 1) += dot(tangent, by_tangent);
     }
   }
 }
@@ -137,11 +154,12 @@ void RingWheel::place_all() {
     if (law_[j].normal == 0.0 && law_[j].shear == 0.0) continue;
     const Near& from = near_[solved_[j]];
     const Vec2 normal = touch_[j].normal;
-    const Vec2 force =
-        conj(from.turn) * (law_[j].normal * normal + law_[j].shear * tangent_of(normal));
+    const Vec2 force = law_[j].normal * normal + law_[j].shear * tangent_of(normal);
+    const Vec2 own = conj(from.turn) * force;
     for (Near& near : near_) {
       near.place +=
-          near.turn * contact::apply(answer(compliance_.data(), near.node, from.node), force);
+          near.turn * contact::apply(answer(compliance_.data(), near.node, from.node), own);
+      if (on_moving_rim_) near.place += by_rim(near.moved, from.reply, force);
     }
   }
 }
@@ -167,10 +185,10 @@ bool RingWheel::turn_normals(const WheelMotion& m) const {
 }
 
 void RingWheel::solve(const WheelMotion& m, double friction, WheelReport& report) {
+  solved_.clear();
+  law_.clear();
   if (!flat_) {  // the forces of before tell where nodes about are
-    law_.clear();
     touch_.clear();
-    solved_.clear();
     for (std::size_t i = 0; i < near_.size(); ++i) {
       const Vec2 force = near_[i].turn * memory_of(near_[i].node).force;
       if (force == Vec2{}) continue;
@@ -212,23 +230,24 @@ void RingWheel::take_forces(WheelReport& report) {
   }
   contacts_.clear();
   for (Modes& s : modes_) s.force.setZero();
+  for (Near& near : near_) near.own = {};
   for (std::size_t i = 0; i < solved_.size(); ++i) {
     const GapContact& c = law_[i];
     if (c.normal == 0.0 && c.shear == 0.0) continue;
-    const Near& near = near_[solved_[i]];
+    Near& near = near_[solved_[i]];
     const Vec2 normal = touch_[i].normal;
     const Vec2 force = c.normal * normal + c.shear * tangent_of(normal);
     contacts_.push_back({near.node, normal, force, c.gap, c.slip, c.status});
     report.force += force;
     report.torque += cross(near.place, force);
-    const Vec2 own = conj(near.turn) * force;
+    const Vec2 own = near.own = conj(near.turn) * force;
     Memory& memory = memory_of(near.node);
     if (memory.filtered == Vec2{} && memory.filtered_before == Vec2{})
       active_.insert(std::ranges::lower_bound(active_, near.node), near.node);
     memory.filtered += 1.0 / (1.0 + lag) * own;
     const Index row = Index{2} * (near.node % n_contact_);
     const Vec2 part = own / static_cast<double>(ring_.n_sectors());
-    for_waves(harmonics_, near.turn, [&](std::size_t h, Complex wave) {
+    for_waves(harmonics_, near.wave, [&](std::size_t h, Complex wave) {
       const Matrix& shape = harmonics_[h].contact;
       for (Index j = 0; j < shape.cols(); ++j) {
         const std::complex<double> x = shape(row, j) * part.x + shape(row + 1, j) * part.y;
@@ -250,7 +269,7 @@ void RingWheel::remember(const WheelMotion& m) {
     if (gone) memory.filtered = memory.filtered_before = {};
     return gone;
   });
-  std::size_t i = 0, c = 0, l = 0;
+  std::size_t i = 0, l = 0;
   for (std::size_t node = 0; node < memory_.size(); ++node) {
     Memory& memory = memory_[node];
     memory.force = {};
@@ -269,8 +288,7 @@ void RingWheel::remember(const WheelMotion& m) {
       memory.side = law_[l].side;
       ++l;
     }
-    if (c < contacts_.size() && at(contacts_[c].node) == node)
-      memory.force = conj(near.turn) * contacts_[c++].force;
+    memory.force = near.own;
     ++i;
   }
 }

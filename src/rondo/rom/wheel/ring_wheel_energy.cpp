@@ -30,25 +30,21 @@ RingWheel::Products RingWheel::products(const RingResidual& table) const {
   return sum;
 }
 
-/// Work of the forces at one end of a step on the mean velocity of the modes, over Δt.
-double RingWheel::work_on_modes(double angle, bool at_end) const {
+/// Work of forces of near nodes, in the frames of their sectors, on the mean velocity of the modes,
+/// over Δt. @param angle of the modes
+double RingWheel::work_on_modes(double angle, Vec2 Near::*force) const {
   const Complex rotation = turned_by(angle);
   double power = 0.0;
-  const auto add = [&](int node, Vec2 force) {
-    const Complex turn = rotation * ring_.stiffness.turn[at(sector(node))];
-    const Index c = Index{2} * (node % n_contact_);
-    for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
-      const std::complex<double>* rate = modes_[h].middle.data() + c;
-      power += harmonics_[h].weight() *
-               (real_product(wave, rate[0]) * force.x + real_product(wave, rate[1]) * force.y);
-    });
-  };
-  if (at_end) {
-    for (const WheelContact& c : contacts_)
-      add(c.node, conj(rotation * ring_.stiffness.turn[at(sector(c.node))]) * c.force);
-  } else {
-    for (const Near& near : near_)
-      if (memory_of(near.node).force != Vec2{}) add(near.node, memory_of(near.node).force);
+  for (const Near& near : near_) {
+    const Vec2 own = near.*force;
+    if (own == Vec2{}) continue;
+    const Index c = Index{2} * (near.node % n_contact_);
+    for_waves(harmonics_, rotation * ring_.stiffness.turn[at(sector(near.node))],
+              [&](std::size_t h, Complex wave) {
+                const std::complex<double>* rate = modes_[h].middle.data() + c;
+                power += harmonics_[h].weight() * (real_product(wave, rate[0]) * own.x +
+                                                   real_product(wave, rate[1]) * own.y);
+              });
   }
   return power;
 }
@@ -56,7 +52,7 @@ double RingWheel::work_on_modes(double angle, bool at_end) const {
 /// Energy of the modes and what is done to them, but for the forces of the ground.
 void RingWheel::account_modes(const WheelMotion& m, WheelEnergy& e) const {
   const double dt = settings_.dt, spin = (m.angle_next - m.angle) / dt;
-  const double softened = m.spin_next * m.spin_next;
+  const double softened = m.kept_spin ? 0.0 : m.spin_next * m.spin_next;
   const double before = m.spin_next - dt * m.spin_rate;
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     const Modes& s = modes_[h];
@@ -70,6 +66,7 @@ void RingWheel::account_modes(const WheelMotion& m, WheelEnergy& e) const {
       e.elastic += 0.5 * n * (of.squares[j] - softened) * std::norm(s.state[j]);
       e.by_mass += n * dt * settings_.mass_damping * middle;
       e.by_stiffness += n * dt * settings_.stiffness_damping * of.squares[j] * middle;
+      if (m.kept_spin) continue;  // WheelRim has the works on a rim that moves
       e.frame += n * dt * (std::conj(p) * s.outside[j]).real();
       if (m.spin_rate == 0.0) continue;
       e.frame -= 0.5 * n *
@@ -94,7 +91,10 @@ void RingWheel::account(const WheelMotion& m, WheelReport& report) {
   account_modes(m, e);
   const Products of = products(table_);
   e.residual = 0.5 * of.end;
-  if (m.spin_rate != 0.0) e.frame += 0.5 * (of.start - products(table_before_).start);
+  const double by_table = new_table_ && (m.kept_spin || m.spin_rate != 0.0)
+                              ? 0.5 * (of.start - products(table_before_).start)
+                              : 0.0;
+  if (!m.kept_spin) e.frame += by_table;
   e.by_residual = settings_.stiffness_damping / dt * (of.end - 2.0 * of.across + of.start);
   const double slides = settings_.slip == SlipRule::bdf2 ? 1.5 : 1.0;
   for (std::size_t i = 0; i < solved_.size(); ++i) {
@@ -106,19 +106,21 @@ void RingWheel::account(const WheelMotion& m, WheelReport& report) {
     if (was.known > 0) e.arrival += c.normal * (was.gap[0] - c.gap);
   }
   e.rim = dot(report.force, m.center_next - m.center) + (m.angle_next - m.angle) * report.torque;
-  const double work = dt * (settings_.theta * work_on_modes(m.angle_next, true) +
-                            (1.0 - settings_.theta) * work_on_modes(m.angle, false));
+  const double work = dt * (settings_.theta * work_on_modes(waves_at(m), &Near::own) +
+                            (1.0 - settings_.theta) * work_on_modes(m.angle, &Near::own_before));
   e.scheme = work + 0.5 * (of.end - of.start) + e.by_residual + e.friction + e.arrival + e.rim;
+  if (m.kept_spin) e.scheme += by_table;
 }
 
-WheelEnergy RingWheel::energy_at_start() const {
+WheelEnergy RingWheel::energy_at_start(bool softened) const {
   WheelEnergy e;
+  const double by_spin = softened ? spin_ * spin_ : 0.0;
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     const Eigen::VectorXd& squares = harmonics_[h].squares;
     const double n = 0.5 * harmonics_[h].weight() * ring_.n_sectors();
     for (Index j = 0, r = squares.size(); j < r; ++j) {
       e.kinetic += n * std::norm(modes_[h].state[r + j]);
-      e.elastic += n * (squares[j] - spin_ * spin_) * std::norm(modes_[h].state[j]);
+      e.elastic += n * (squares[j] - by_spin) * std::norm(modes_[h].state[j]);
     }
   }
   return e;

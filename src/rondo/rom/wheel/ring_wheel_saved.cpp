@@ -86,9 +86,12 @@ std::vector<double> RingWheel::save() const {
 void RingWheel::restore(std::span<const double> numbers) {
   RONDO_DEMAND(is_saved(ring_, model_, numbers), numbers.size());
   Reader from(numbers);
-  spin_ = from.next();
-  set_table(spin_);
-  has_matrices_ = false;
+  const double spin = from.next();
+  if (!has_matrices_ || spin_rate_ != 0.0 || spin_ != spin) {
+    spin_ = spin;
+    set_table(spin_);
+    has_matrices_ = false;
+  }
   for (Modes& s : modes_) {
     from.fill(s.state);
     from.fill(s.force);

@@ -190,11 +190,15 @@ Options sweep_options(SweepRequest& r) {
 
 Options fmu_options(FmuRequest& r) {
   return {
-      {"--case", "case", &r.case_file,
-       "Case file with ground, dampings, gravity and start; if left out, that of the model's first "
-       "run"},
-      {"--step-factor", "step_factor", &r.step_factor,
-       "Largest internal step over that of the full run"},
+      {.words = "--modes",
+       .python = "modes",
+       .target = &r.modes,
+       .help = "Number of modes; if left out, chosen as for rondo run --reduced"},
+      {.words = "--reduced-step",
+       .python = "reduced_step",
+       .target = &r.step,
+       .help = "Largest internal step; if left out, chosen likewise",
+       .unit = "s"},
   };
 }
 

@@ -51,10 +51,10 @@ using Options = std::vector<Option>;
 
 /// The options of `rondo fmu`.
 struct FmuRequest {
-  std::filesystem::path model, output;
-  std::filesystem::path case_file;    ///< empty: that of the model's first run
+  std::filesystem::path case_file, output;
   std::vector<std::string> settings;  ///< "a.b=value" of --set
-  double step_factor = 20.0;
+  std::optional<long long> modes;     ///< none: chosen
+  std::optional<double> step;         ///< largest internal step [s]; none: chosen
 };
 
 // The requests must outlive the result.

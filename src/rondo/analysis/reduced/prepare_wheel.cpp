@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/reduced/prepare_wheel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/elements/combinations.hpp"
+#include "rondo/case/case_source.hpp"
+#include "rondo/fem/contact_mass.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr double longest_step = 4e-4;      ///< chosen without a wish                     [s]
+constexpr double fewest_passes = 1.618;    ///< steps in the pass of a sector
+constexpr double beyond_whole = 0.618;     ///< so that nodes are seen at all their phases
+constexpr double steps_in_contact = 20.0;  ///< while a node passes it
+constexpr int most_modes = 40, most_modes_of_tread = 90, fewest_modes = 10;
+constexpr double highest_mode = 1.5;     ///< ω Δt of the modes that are taken
+constexpr double led_speed = 60.0;       ///< to which a wheel may be led from outside      [m/s]
+constexpr double beyond_expected = 2.0;  ///< of the spin that is expected of a free one: known
+
+double radius_of(const Setup& setup) {
+  double radius = 0.0;
+  for (const Vec2 x : setup.model.reference) radius = std::max(radius, norm(x));
+  return radius;
+}
+
+/// The spin that torque and ground let the wheel reach is known only afterwards: at least that of
+/// free rolling is expected.
+ExpectedContact expected(const Case& c, const Setup& setup) {
+  ExpectedContact e;
+  const double radius = radius_of(setup);
+  e.spin = c.motion.angular_velocity.largest();
+  if (c.rim && c.rim->free_spin) e.spin = std::max(e.spin, c.motion.speed.largest() / radius);
+  e.speed = std::max(c.motion.speed.largest(), e.spin * radius);
+  double lowest = radius;
+  for (const auto& point : c.motion.height.points()) lowest = std::min(lowest, point[1]);
+  const double top = setup.model.contact->ground.top();
+  const double above = std::clamp(lowest - (std::isfinite(top) ? top : 0.0), 0.0, radius);
+  const bool lowers_itself = c.rim && c.rim->free_y;
+  if (!lowers_itself) e.length = 2.0 * std::sqrt(radius * radius - above * above);
+  if (e.spin > 0.0) e.pass = 2.0 * std::numbers::pi / setup.mesh.n_sectors / e.spin;
+  e.spacing = 2.0 * std::numbers::pi * radius / static_cast<double>(setup.mesh.boundary.size());
+  return e;
+}
+
+/// The step that is asked for, else one that sees contact and the nodes that pass it.
+double step_of(const RunOptions& options, const ExpectedContact& e) {
+  const std::string& wish = options.reduced_step;
+  if (wish != "midpoint") {
+    double step = 0.0;
+    const auto [end, error] = std::from_chars(wish.data(), wish.data() + wish.size(), step);
+    if (error != std::errc() || end != wish.data() + wish.size() || !(step > 0.0) ||
+        !std::isfinite(step))
+      throw request_error("--reduced-step", wish,
+                          "is no step of a reduced wheel that is made of the case",
+                          "a number of seconds above 0, e.g. 0.0004; or no --reduced-step");
+    return step;
+  }
+  double step = longest_step;
+  if (e.speed > 0.0 && e.length > 0.0)
+    step = std::min(step, e.length / (steps_in_contact * e.speed));
+  if (e.pass == 0.0) return step;
+  const double passes = std::max(fewest_passes, e.pass / step);
+  return e.pass / (std::max(1.0, std::ceil(passes - beyond_whole - 1e-9)) + beyond_whole);
+}
+
+/// Spins of the residual: those of the tables; of a free or led spin well beyond what is expected,
+/// as far as no spin there is critical.
+rom::KnownSpins spins_of(const Case& c, bool led, double expected, double radius) {
+  const bool free = c.rim && c.rim->free_spin;
+  rom::KnownSpins spins{expected, expected, true};
+  if (free) spins.most = beyond_expected * expected;
+  if (led) spins.most = std::max(beyond_expected * expected, led_speed / radius);
+  spins.change = free || led || c.motion.angular_velocity.points().size() > 1;
+  return spins;
+}
+
+rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
+  if (options.reduced_modes) {
+    if (*options.reduced_modes < 0 || *options.reduced_modes > 100000)
+      throw request_error("--modes", std::to_string(*options.reduced_modes),
+                          "is no number of modes", "a whole number from 0 to 100000");
+    return {.wanted = static_cast<int>(*options.reduced_modes)};
+  }
+  const bool tread = setup.mesh.boundary.size() > static_cast<std::size_t>(setup.mesh.n_sectors);
+  return {.wanted = tread ? most_modes_of_tread : most_modes,
+          .highest = highest_mode / setup.model.dt,
+          .fewest = fewest_modes};
+}
+
+void refuse(const Case& c, const RunOptions& options, const Setup& setup) {
+  if (options.step_factor != RunOptions().step_factor)
+    throw request_error("--step-factor", fmt::format("{:.9g}", options.step_factor),
+                        "is of the step of a model, not of a wheel that is made of the case",
+                        "--reduced-step, in seconds");
+  if (options.reduced_snapshots != "fields")
+    throw request_error("--snapshots", options.reduced_snapshots,
+                        "a reduced wheel that is made of the case has snapshots of fields",
+                        "fields");
+  refuse_combinations(c, setup.model, dynamics::has::reduced | dynamics::has::exact_wheel);
+  if (!c.ground)
+    throw case_error(c, "ground",
+                     "a reduced wheel of the case is one of exact contact, and there "
+                     "is no ground",
+                     "a [ground]; or the full run, without --reduced");
+}
+
+/// The mass of contact nodes goes to their neighbours.
+void move_masses(const Case& c, Setup& setup) {
+  dynamics::Model& model = setup.model;
+  fem::MovedMass moved = fem::move_contact_mass(setup.mesh, model.mass, model.contact->nodes);
+  if (moved.without_neighbour >= 0) {
+    const Vec2 x = model.reference[static_cast<std::size_t>(moved.without_neighbour)];
+    throw case_error(
+        c, "disk.mesh.radial",
+        fmt::format("the contact node at ({:.4g}, {:.4g}) m has no free neighbour that "
+                    "could carry its mass",
+                    x.x, x.y),
+        "at least two layers of elements");
+  }
+  model.lumped_mass = std::exchange(model.mass, std::move(moved.mass));
+}
+
+void warn_of(const Setup& setup, bool led, PreparedWheel& w) {
+  const ExpectedContact& e = w.expected;
+  const double dt = setup.model.dt;
+  const auto warn = [&](std::string text) { w.warnings.push_back(std::move(text)); };
+  if (e.length > 0.0 && e.length < 5.0 * e.spacing)
+    warn(
+        fmt::format("contact has {:.1f} nodes at the lowest motion.height: forces of fewer than 5 "
+                    "nodes depend on where the nodes are; a finer mesh sees more",
+                    e.length / e.spacing));
+  if (w.highest() * dt > 2.0)
+    warn(
+        fmt::format("the highest mode, of {:.5g} rad/s, turns by {:.2g} rad in a step, where 2 are "
+                    "accurate: fewer --modes, or a smaller --reduced-step",
+                    w.highest(), w.highest() * dt));
+  if (!led && e.length > 0.0 && e.speed * dt > e.length / 12.0)
+    warn(
+        fmt::format("a step moves by {:.3g} m, of a contact of {:.3g} m: a --reduced-step of at "
+                    "most {:.2g} s sees what happens within it",
+                    e.speed * dt, e.length, e.length / 12.0 / e.speed));
+  if (!led && e.pass > 0.0 && w.passes(dt) < 1.5)
+    warn(
+        fmt::format("{:.2g} steps in the pass of a sector: forces of fewer than 1.5 swing; a "
+                    "--reduced-step of at most {:.2g} s",
+                    w.passes(dt), e.pass / 1.618));
+  for (const rom::RingResidual& r : w.model.residuals)
+    if (!r.made_static.empty())
+      return warn(
+          fmt::format("at {:.4g} rad/s the mesh is beyond the critical spin of harmonic {}: "
+                      "the inertia of what no mode has is left out of {} harmonics",
+                      e.spin, r.made_static.front(), r.made_static.size()));
+}
+
+}  // namespace
+
+int PreparedWheel::n_modes() const {
+  return rom::count_modes(model.harmonics);
+}
+
+double PreparedWheel::highest() const {
+  double most = 0.0;
+  for (const rom::RingHarmonic& h : model.harmonics)
+    most = std::max(most, h.squares.size() > 0 ? std::sqrt(h.squares.maxCoeff()) : 0.0);
+  return most;
+}
+
+void prepare_wheel(const Case& c, const RunOptions& options, bool led, Setup& setup,
+                   PreparedWheel& wheel) {
+  refuse(c, options, setup);
+  move_masses(c, setup);
+  wheel.full_step = setup.model.dt;
+  wheel.expected = expected(c, setup);
+  setup.model.dt = step_of(options, wheel.expected);
+  setup.n_steps = count_steps(c, setup.model.dt);
+  wheel.ring.emplace(rom::ring_of(setup.model));
+  wheel.model = rom::make_wheel_model(*wheel.ring, modes_of(options, setup),
+                                      spins_of(c, led, wheel.expected.spin, radius_of(setup)));
+  wheel.known_spin = wheel.model.largest_spin;
+  setup.reduced = fmt::format("a reduced wheel of {} modes with a step of {:.17g} s",
+                              wheel.n_modes(), setup.model.dt);
+  setup.saved_numbers = rom::WheelRun::n_numbers(setup.model, *wheel.ring, wheel.model);
+  warn_of(setup, led, wheel);
+}
+
+}  // namespace rondo::study

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A reduced wheel with exact contact, made of a case (docs/reduced.md): step, modes and
+/// tables.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondo/case/setup.hpp"
+#include "rondo/output/run_options.hpp"
+#include "rondo/rom/wheel_run.hpp"
+
+namespace rondo::study {
+
+/// What the case says about contact, before the run.
+struct ExpectedContact {
+  double spin = 0.0;     ///< largest |ω|                                             [rad/s]
+  double speed = 0.0;    ///< largest of |V| and |ω| R                                  [m/s]
+  double length = 0.0;   ///< of the contact at the lowest height, on flat ground; 0: not known [m]
+  double pass = 0.0;     ///< time in which a sector passes; 0: it does not turn            [s]
+  double spacing = 0.0;  ///< of contact nodes, in the mean                                 [m]
+};
+
+struct PreparedWheel {
+  std::optional<rom::Ring> ring;  ///< of the setup's sector
+  rom::WheelModel model;
+  ExpectedContact expected;
+  double known_spin = 0.0;    ///< up to which the residual is known                      [rad/s]
+  double full_step = 0.0;     ///< step of the full run                                       [s]
+  rom::WheelFigures figures;  ///< filled while it runs
+  std::vector<std::string> warnings;  ///< for the user
+
+  [[nodiscard]] int n_modes() const;
+  /// Angular frequency of the highest mode [rad/s]
+  [[nodiscard]] double highest() const;
+  /// Steps in the pass of a sector at the largest spin.
+  [[nodiscard]] double passes(double dt) const { return expected.pass / dt; }
+};
+
+/// Gives the setup the masses and the step of a reduced wheel. The setup must stay where it is.
+/// @param led the spin comes from outside while the wheel runs
+/// @throws InputError: what a reduced wheel cannot do, or options that do not go with it
+void prepare_wheel(const Case& c, const RunOptions& options, bool led, Setup& setup,
+                   PreparedWheel& wheel);
+
+}  // namespace rondo::study
