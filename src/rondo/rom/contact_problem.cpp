@@ -41,8 +41,7 @@ ContactSolver::ContactSolver(const mesh::Mesh& mesh, const rom::ReducedModel& mo
   }
   phases_.push_back(
       {0.0, 0,
-       std::make_unique<ContactTable>(
-           model.contact, model.contact.rows * (model.rim ? model.rim->carry : model.generator))});
+       std::make_unique<ContactTable>(model.contact, model.contact.rows * model.generator)});
 }
 
 Complex ContactSolver::frame_rotation(double angle) const noexcept {
@@ -136,25 +135,6 @@ void ContactSolver::find(const FreeStep& step, bool next) {
   }
 }
 
-void ContactSolver::find_rim_responses(const FreeStep& step) {
-  rim_.clear();
-  if (!step.rim) return;
-  const ContactTable& t = *end_.table;
-  for (const PointContact& c : contacts_) {
-    const Vec2 arm = t.point(c.point) + t.at(c.point, *step.end.q);
-    const Vec2 push_arm = t.point(c.point) + t.at(c.point, *step.q_arm);
-    rim_.push_back(point_response(*step.rim, t, c.point, arm, push_arm, step.spin));
-  }
-}
-
-DelassusPair ContactSolver::pair_of(std::size_t at, std::size_t from) const {
-  DelassusPair w = end_.table->pair(contacts_[at].point, contacts_[from].point);
-  if (rim_.empty()) return w;
-  w.normal += rim_[at].normal * rim_[from].push;
-  w.tangential += rim_[at].tangential * rim_[from].push;
-  return w;
-}
-
 /// A law is asked with the place and the slip before the step, and the impulse of the step before.
 double ContactSolver::friction_of(const FreeStep& step, const contact::Friction& friction,
                                   const PointContact& c) const {
@@ -198,7 +178,7 @@ void ContactSolver::make_problem(const FreeStep& step, const contact::Law& law,
     coupled_.add(free, bounce, friction_of(step, law.friction, c), c.impulse);
   }
   coupled_.couple_all([&](std::size_t i, std::size_t j) -> contact::Block {
-    const DelassusPair w = pair_of(i, j);
+    const DelassusPair w = now.pair(contacts_[i].point, contacts_[j].point);
     const Vec2 normal = contacts_[i].normal, from = contacts_[j].normal, side = turn90(from);
     const Vec2 n_back = now.stands_still() ? normal : back_turn * normal;
     const Vec2 t_back = back_turn * turn90(normal);
@@ -218,7 +198,6 @@ ContactOutcome ContactSolver::solve(const FreeStep& step, const contact::Law& la
   ContactOutcome outcome;
   if (contacts_.empty()) return outcome;
   end_.table->prepare(points_, matrices);
-  find_rim_responses(step);
   make_problem(step, law, matrices);
   const contact::CoupledResult& result = coupled_.solve();
   outcome.iterations = result.iterations;

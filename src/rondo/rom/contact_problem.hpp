@@ -8,8 +8,6 @@
 #include "rondo/contact/coupled/coupled_contacts.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/rom/contact_table.hpp"
-#include "rondo/rom/rim_response.hpp"
-#include "rondo/rom/saved_reduced.hpp"
 
 namespace rondo::rom {
 
@@ -30,8 +28,6 @@ struct FreeStep {
   double dt = 0.0;    ///< [s]
   double spin = 0.0;  ///< s, of the fields at points fixed in space [rad/s]
   BodyState before, end;
-  const RimResponse* rim = nullptr;  ///< of a free rim; null: [motion] drives the rim
-  const VectorXd* q_arm = nullptr;   ///< (r) of the arms of impulses on such a rim
 };
 
 /// A point of the body against a facet of the ground.
@@ -62,12 +58,6 @@ class ContactSolver {
                                      const StepMatrices& matrices);
   /// The matrices of the following steps are different.
   void forget_matrices() noexcept;
-
-  [[nodiscard]] SavedContact save() const;
-  [[nodiscard]] bool fits(const SavedContact& saved) const noexcept;
-  /// @param matrices those of the last step, for which the present blocks were made; null: no step
-  /// was made. @pre fits()
-  void restore(const SavedContact& saved, const StepMatrices* matrices);
 
   /// Contacts of the last step, ordered by point.
   [[nodiscard]] const std::vector<PointContact>& contacts() const noexcept { return contacts_; }
@@ -100,8 +90,6 @@ class ContactSolver {
   void make_problem(const FreeStep& step, const contact::Law& law, const StepMatrices& matrices);
   [[nodiscard]] double friction_of(const FreeStep& step, const contact::Friction& friction,
                                    const PointContact& contact) const;
-  void find_rim_responses(const FreeStep& step);
-  [[nodiscard]] DelassusPair pair_of(std::size_t at, std::size_t from) const;
   [[nodiscard]] Vec2 opening(const BodyState& body, const Points& points, int point,
                              double spin) const;
   [[nodiscard]] Vec2 material_velocity(const BodyState& body, const Points& points,
@@ -119,7 +107,6 @@ class ContactSolver {
   std::vector<PointContact> contacts_;
   std::vector<Vec2> warm_;  ///< by material: impulses of the previous step             [N·s/m]
   std::vector<int> points_;
-  std::vector<PointResponse> rim_;  ///< at the contacts; empty: a driven rim
   contact::CoupledContacts coupled_;
 };
 

@@ -49,7 +49,6 @@ ReducedIntegrator::ReducedIntegrator(const IntegratorInput& input, const dynamic
        {&q_end_, &p_end_, &carried_, &q_mid_, &p_mid_, &load_, &push_, &work_, &other_})
     v->setZero(q_.size());
   p_mid_ = p_;
-  if (input.model.rim) rim_ = std::make_unique<MovingRim>(input.model, input.reduced);
   if (input.scheme == StepScheme::central) start_central();
   ledger_.compare(energy());
 }
@@ -115,7 +114,7 @@ void ReducedIntegrator::set_load(const Motion& m) {
 void ReducedIntegrator::use_matrices(const Motion& m) {
   const dynamics::Model& model = input_.model;
   const StepMatrixKey key{input_.scheme, m.dt,   model.mass_damping, model.stiffness_damping,
-                          m.carry,       m.spin, m.spin_rate,        rim_ != nullptr};
+                          m.carry,       m.spin, m.spin_rate};
   if (matrices_ && matrices_->key() == key) return;
   const auto begin = Clock::now();
   matrices_ = std::make_unique<StepMatrices>(input_.reduced, key);
@@ -126,16 +125,6 @@ void ReducedIntegrator::use_matrices(const Motion& m) {
 
 void ReducedIntegrator::step(StepReport& report) {
   const auto begin = Clock::now();
-  if (rim_)
-    step_on_rim(report);
-  else
-    step_driven(report);
-  const double seconds = seconds_since(begin);
-  input_.figures.wall_s += seconds;
-  input_.figures.slowest_step_s = std::max(input_.figures.slowest_step_s, seconds);
-}
-
-void ReducedIntegrator::step_driven(StepReport& report) {
   const Motion m = motion_of_step();
   use_matrices(m);
   set_load(m);
@@ -148,6 +137,9 @@ void ReducedIntegrator::step_driven(StepReport& report) {
   report.step = n_;
   report.frame = frame_;
   balance(m, report);
+  const double seconds = seconds_since(begin);
+  input_.figures.wall_s += seconds;
+  input_.figures.slowest_step_s = std::max(input_.figures.slowest_step_s, seconds);
 }
 
 void ReducedIntegrator::solve_contact(const Motion& m, ContactReport& report) {
@@ -238,10 +230,7 @@ dynamics::StepEnergy ReducedIntegrator::energy() {
   other_ = q_;
   if (input_.scheme == StepScheme::central) other_ += input_.model.dt * p_;
   multiply(input_.reduced.stiffness, other_, work_);
-  if (rim_)
-    e = rim_->energy(q_, p_);
-  else
-    e.kinetic = 0.5 * p_.squaredNorm();
+  e.kinetic = 0.5 * p_.squaredNorm();
   e.strain = 0.5 * q_.dot(work_);
   return e;
 }
@@ -334,7 +323,6 @@ void ReducedIntegrator::fill_contacts(double angle,
 }
 
 double ReducedIntegrator::state_velocity_angle() const noexcept {
-  if (rim_) return frame_.angle - 0.5 * frame_.turn_before;
   if (input_.scheme == StepScheme::central) return frame_.angle;
   return input_.model.motion.angle(frame_.time - 0.5 * input_.model.dt);
 }

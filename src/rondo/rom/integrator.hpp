@@ -4,7 +4,6 @@
 /// velocities at whole steps; the velocity of a state is, as in a full run, that of half a step
 /// before, P̄.
 #pragma once
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <span>
@@ -13,26 +12,9 @@
 #include "rondo/core/process_wide.hpp"
 #include "rondo/model/integrator.hpp"
 #include "rondo/rom/contact_problem.hpp"
-#include "rondo/rom/moving_rim.hpp"
-#include "rondo/rom/saved_reduced.hpp"
+#include "rondo/rom/step_matrices.hpp"
 
 namespace rondo::rom {
-
-/// Smallest and largest value so far. If there is none: low > high.
-struct Extent {
-  double low = 1.0, high = 0.0;
-  void take(double value) noexcept {
-    const bool none = low > high;
-    low = none ? value : std::min(low, value);
-    high = none ? value : std::max(high, value);
-  }
-  [[nodiscard]] double largest() const noexcept { return std::max(-low, high); }  ///< |value|
-};
-
-/// Extremes of the motion of a free rim, with the user's signs.
-struct RimExtents {
-  Extent spin, speed, height;  ///< [rad/s], [m/s], [m]
-};
 
 /// Statistics of the steps so far.
 struct StepFigures {
@@ -47,9 +29,7 @@ struct StepFigures {
   int iterations_max = 0;
   int contacts_max = 0;
   long long more_rows_than_modes = 0;  ///< steps with more contact rows than modes
-  long long not_converged = 0;         ///< steps in which the contact missed the solver's
-                                       ///< tolerance, or no try gave a brake that holds
-  RimExtents rim;                      ///< empty if [motion] drives the rim
+  long long not_converged = 0;         ///< steps in which the contact missed the solver's tolerance
 };
 
 /// Data that a reduced integrator uses; all must outlive it.
@@ -90,16 +70,6 @@ class ReducedIntegrator final : public dynamics::Integrator {
   /// Computes u and v of the state after the last step, on all nodes.
   void lift(dynamics::State& state) const noexcept;
 
-  /// Call between two steps. @throws std::bad_alloc
-  [[nodiscard]] SavedReducedState save() const;
-  /// Whether the sizes of the saved state match this integrator.
-  [[nodiscard]] bool fits(const SavedReducedState& saved) const noexcept;
-  /// Continues bit for bit like the integrator that saved it, with the same input. The contacts of
-  /// the last step are not restored. @pre fits()
-  void restore(const SavedReducedState& saved);
-  /// Calls MovingRim::lead(); must precede each step. @pre input.model.rim
-  void lead(const RimVector& end);
-
  private:
   /// The frame over one step: the midpoint rule uses means over the step, central differences the
   /// values at its end.
@@ -116,7 +86,6 @@ class ReducedIntegrator final : public dynamics::Integrator {
     const VectorXd& arm;  ///< (r) displacement in the arms of s
   };
   void step(dynamics::StepReport& report);
-  void step_driven(dynamics::StepReport& report);
   void start_central();
   [[nodiscard]] Motion motion_of_step() const;
   void set_load(const Motion& motion);
@@ -128,10 +97,6 @@ class ReducedIntegrator final : public dynamics::Integrator {
                       dynamics::ContactReport& report);
   void balance(const Motion& motion, dynamics::StepReport& report);
   [[nodiscard]] dynamics::StepEnergy energy();
-  // Steps of a free rim (integrator_rim.cpp):
-  void step_on_rim(dynamics::StepReport& report);
-  void press_on_rim(dynamics::ContactReport& report);
-  void balance_on_rim(dynamics::StepReport& report);
   void fill(dynamics::State& state);
   void fill_contacts(double angle, std::vector<dynamics::ActiveContact>& active) const;
 
@@ -142,7 +107,6 @@ class ReducedIntegrator final : public dynamics::Integrator {
   std::optional<rom::BoundaryLift> boundary_lift_;  ///< none: all nodes of states are lifted
   std::unique_ptr<ContactSolver> contact_;          ///< null: no ground
   std::unique_ptr<StepMatrices> matrices_;
-  std::unique_ptr<MovingRim> rim_;  ///< null: [motion] drives the rim
   dynamics::Ledger ledger_;
   long long n_ = 0;  ///< number of steps made
   VectorXd q_, p_;   ///< (r) at the end of the last step; central: p half a step later

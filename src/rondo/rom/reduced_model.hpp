@@ -12,7 +12,6 @@
 #include "rondo/mesh/mesh.hpp"
 #include "rondo/pod/rectify.hpp"
 #include "rondo/rom/contact_rows.hpp"
-#include "rondo/rom/rim_modes.hpp"
 
 namespace rondo::rom {
 
@@ -38,7 +37,6 @@ struct ReducedModel {
   Eigen::MatrixXd weights;  ///< (sectors, m) of the sectors in the points fixed in space
   ContactRows contact;      ///< of these points; empty if the points are nodes
   int n_sectors = 0;
-  std::optional<RimModes> rim;  ///< if the rim is free; set by the caller
 
   [[nodiscard]] Eigen::Index size() const noexcept { return basis.cols(); }
 };

@@ -22,9 +22,8 @@ MatrixXd product(const MatrixXd& a, const MatrixXd& b) {
   return c;
 }
 
-/// L = K - s² + ṡJ; with a free rim K + s² J D̃.
+/// L = K - s² + ṡJ.
 MatrixXd restoring(const rom::ReducedModel& m, const StepMatrixKey& k) {
-  if (k.moving_rim) return m.stiffness + k.spin * k.spin * m.rim->turned_carry;
   MatrixXd l = m.stiffness + k.spin_rate * m.turn;
   l.diagonal().array() -= k.spin * k.spin;
   return l;
@@ -34,7 +33,6 @@ MatrixXd restoring(const rom::ReducedModel& m, const StepMatrixKey& k) {
 MatrixXd carrying(const rom::ReducedModel& m, const StepMatrixKey& k) {
   const MatrixXd unit = MatrixXd::Identity(m.size(), m.size());
   if (m.frame == rom::ModelFrame::turning || k.carry == 0.0) return unit;
-  if (k.moving_rim) return inverse(unit - 0.5 * k.dt * k.carry * m.rim->carry);
   return inverse(unit - 0.5 * k.dt * k.carry * m.generator);
 }
 

@@ -26,8 +26,6 @@ struct StepMatrixKey {
   double carry = 0.0;      ///< s, counter-clockwise, mean over the step: carries the fields [rad/s]
   double spin = 0.0;       ///< s in the velocity equation; midpoint: the same as carry      [rad/s]
   double spin_rate = 0.0;  ///< ṡ                                                       [rad/s2]
-  bool moving_rim = false;  ///< L = K + s² J D̃, D̃ of RimModes: the spin of the rim is an
-                            ///< additional unknown (R.7)
 
   bool operator==(const StepMatrixKey&) const = default;
 };

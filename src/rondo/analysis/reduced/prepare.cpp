@@ -99,39 +99,29 @@ void check_impacts(const Case& c, const ReducedRun& run) {
   throw case_error(c, "ground.impact",
                    "in a reduced run impacts of this law may create energy, except with contact at "
                    "nodes and explicit steps",
-                   c.rim ? "\"moreau\""
-                         : "\"moreau\", or a model of rondo reduce --contact nodes and "
-                           "--reduced-step explicit");
+                   "\"moreau\", or a model of rondo reduce --contact nodes and "
+                   "--reduced-step explicit");
 }
 
-/// A rim that moves by itself stands beside the modes of what is seen from the fixed frame.
-void take_rim(const Case& c, const RunOptions& options, const Setup& setup, ReducedRun& run) {
+void refuse_rim(const Case& c) {
   if (!c.rim) return;
-  if (run.scheme != rom::StepScheme::midpoint)
-    throw request_error("--reduced-step", options.reduced_step,
-                        "with a [rim] the lines of the rim are part of the implicit step",
-                        "midpoint, or a case without [rim]");
-  if (run.file.model.frame != rom::ModelFrame::rectified)
-    throw request_error("--reduced", options.reduced.string(),
-                        "is a model in the co-rotating frame, which does not support a [rim]",
-                        "a model of the rectified frame (rondo reduce without --frame)");
-  run.file.model.rim = rom::make_rim_modes(setup.mesh, setup.model.mass, run.file.model);
+  throw case_error(c, "rim", "the rim of a model of runs follows the tables of [motion]",
+                   "--reduced without a file: a wheel that is made of the case");
 }
 
-/// Warns by what the motion says before the run; if the rim is free, its start says nothing.
+/// Warns by what the motion says before the run.
 void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
   const ModelRanges& built = run.file.ranges;
-  const dynamics::RimBody rim = c.rim.value_or(dynamics::RimBody{});
   ModelRanges wanted;
   if (c.ground) wanted.friction.take(c.ground->friction);
   constexpr long long most = 10000;
   const long long samples = std::min(most, setup.n_steps);
   for (long long k = 0; k <= samples; ++k) {
     const double t = c.time.end * static_cast<double>(k) / static_cast<double>(samples);
-    if (!rim.free_spin) wanted.angular_velocity.take(c.motion.angular_velocity.at(t));
-    if (!rim.free_x) wanted.speed.take(c.motion.speed.at(t));
-    if (!rim.free_y) wanted.height.take(c.motion.height.at(t));
-    if (!rim.free_spin && !rim.free_x) wanted.slip_ratio.take(slip_ratio_at(c, t));
+    wanted.angular_velocity.take(c.motion.angular_velocity.at(t));
+    wanted.speed.take(c.motion.speed.at(t));
+    wanted.height.take(c.motion.height.at(t));
+    wanted.slip_ratio.take(slip_ratio_at(c, t));
   }
   const auto check = [&](const char* what, ModelRange ModelRanges::*range, double scale = 0.0) {
     add_said(outside(what, built.*range, wanted.*range, scale), run.warnings);
@@ -151,8 +141,7 @@ void warn_of_range(const Case& c, const Setup& setup, ReducedRun& run) {
 double step_of(const Case& c, const Setup& setup, const ReducedRun& run) {
   const double dt = run.full_step * run.step_factor;
   const dynamics::Table& spin = c.motion.angular_velocity;
-  const bool phases = c.ground && !(c.rim && c.rim->free_spin) &&
-                      run.file.model.form == rom::ContactForm::nodes &&
+  const bool phases = c.ground && run.file.model.form == rom::ContactForm::nodes &&
                       run.file.model.frame == rom::ModelFrame::rectified;
   if (!phases || spin.points().size() != 1 || spin.largest() == 0.0) return dt;
   const double sector = 2.0 * std::numbers::pi / setup.mesh.n_sectors / spin.largest();
@@ -203,7 +192,7 @@ ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setu
   for (const auto& [name, lifts] : snapshot_names)
     if (options.reduced_snapshots == name) run.lifts = lifts;
   check_impacts(c, run);
-  take_rim(c, options, setup, run);
+  refuse_rim(c);
   run.step_factor = options.step_factor;
   run.full_step = setup.model.dt;
   run.constant_spin = c.motion.angular_velocity.points().size() == 1;

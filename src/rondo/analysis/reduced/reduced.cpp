@@ -19,18 +19,16 @@ namespace {
 /// Warns of values that the motion is led over to; what was said before is not said again.
 void warn_of_values(const Case& c, const Setup& setup, ReducedRun& run) {
   const ModelRanges& built = run.file.ranges;
-  const dynamics::RimBody rim = c.rim.value_or(dynamics::RimBody{});
   const auto last = [](const dynamics::Table& table) { return table.points().back()[1]; };
   std::vector<std::string> said;
-  const auto check = [&](bool held, const char* what, const ModelRange& range, double value) {
+  const auto check = [&](const char* what, const ModelRange& range, double value) {
     ModelRange wanted;
     wanted.take(value);
-    if (held) add_said(outside(what, range, wanted, 0.0), said);
+    add_said(outside(what, range, wanted, 0.0), said);
   };
-  check(!rim.free_spin, "motion.angular_velocity", built.angular_velocity,
-        last(c.motion.angular_velocity));
-  check(!rim.free_x, "motion.speed", built.speed, last(c.motion.speed));
-  check(!rim.free_y, "motion.height", built.height, last(c.motion.height));
+  check("motion.angular_velocity", built.angular_velocity, last(c.motion.angular_velocity));
+  check("motion.speed", built.speed, last(c.motion.speed));
+  check("motion.height", built.height, last(c.motion.height));
   add_said(passed_points(c, setup, c.motion.angular_velocity.largest(), run), said);
   for (std::string& warning : said)
     if (std::ranges::find(run.warnings, warning) == run.warnings.end())
@@ -39,8 +37,7 @@ void warn_of_values(const Case& c, const Setup& setup, ReducedRun& run) {
 
 /// The step of a spin that stays makes a whole number of phases of a sector, see step_of().
 void refuse_other_phases(const Case& c, const ReducedRun& run) {
-  const bool phases =
-      c.ground && !(c.rim && c.rim->free_spin) && run.file.model.form == rom::ContactForm::nodes;
+  const bool phases = c.ground && run.file.model.form == rom::ContactForm::nodes;
   if (!phases || !run.constant_spin || c.motion.angular_velocity.points().size() == 1) return;
   throw case_error(c, "motion.angular_velocity",
                    "the step of this reduced run is made for a constant spin",
@@ -180,10 +177,7 @@ class ReducedAnalysis final : public DynamicAnalysis {
   }
 
   [[nodiscard]] Resumable* resumable() noexcept override { return nullptr; }
-  void close() override {
-    DynamicAnalysis::close();
-    if (case_.rim) warn_of_rim();
-  }
+  void close() override { DynamicAnalysis::close(); }
   [[nodiscard]] RecordPlan record_plan() const override {
     RecordPlan plan = DynamicAnalysis::record_plan();
     if (!run_.lifts) plan_modes(run_, plan.results);
@@ -244,24 +238,6 @@ class ReducedAnalysis final : public DynamicAnalysis {
   }
 
  private:
-  /// Warns of the range that a rim has come to by itself.
-  void warn_of_rim() {
-    std::vector<std::string> warnings;
-    const ModelRanges& built = run_.file.ranges;
-    const rom::RimExtents& rim = run_.figures.rim;
-    const double told = case_.motion.angular_velocity.largest();  // before the run
-    // The results swing: 2 % of spin and speed are no news.
-    const auto check = [&](bool free, const char* what, const ModelRange& from, rom::Extent to,
-                           double share) {
-      if (free) add_said(outside(what, from, {to.low, to.high}, share * to.largest()), warnings);
-    };
-    check(case_.rim->free_spin, "the spin of the rim", built.angular_velocity, rim.spin, 20.0);
-    check(case_.rim->free_x, "the speed of the rim", built.speed, rim.speed, 20.0);
-    check(case_.rim->free_y, "the height of the rim", built.height, rim.height, 1.0);
-    if (passed_points(case_, setup(), told, run_).empty())
-      add_said(passed_points(case_, setup(), rim.spin.largest(), run_), warnings);
-    for (const std::string& warning : warnings) warn(warning);
-  }
   /// Probes want their cells at every row.
   [[nodiscard]] bool lifts_states() const noexcept { return run_.lifts || !setup().probes.empty(); }
   static void fill_series(const Eigen::VectorXd& q, const Eigen::VectorXd& p,

@@ -73,6 +73,10 @@ void check_run(const io::RunReader& run, const Case& c) {
                         "the body has no equal sectors round a rim that holds it: its fields "
                         "cannot be moved to the fixed frame",
                         "runs of a [disk] whose rim is constrained");
+  if (c.rim)
+    throw request_error("RUN", name,
+                        "its rim moves by itself, and that of a model of runs follows tables",
+                        "runs without [rim]; or rondo run CASE --reduced, which needs no model");
   if (run.status() != "done")
     throw request_error("RUN", name,
                         fmt::format("the run is not finished (status {})", run.status()),
@@ -157,28 +161,6 @@ RunSnapshots snapshots_of(const ReduceRequest& r, const Source& source, const ch
   return {source.runs, std::move(columns), choice};
 }
 
-/// For a free rim, takes its motion from history.csv.
-void take_history(const std::filesystem::path& directory, const PodRequest& pod,
-                  ModelRanges& ranges) {
-  const auto columns = io::read_columns(directory / "history.csv");
-  const auto column = [&](const char* name) -> const std::vector<double>& {
-    const auto found = columns.find(name);
-    if (found != columns.end()) return found->second;
-    throw FileError((directory / "history.csv").string(),
-                    fmt::format("has no column {}, which a run with [rim] has", name));
-  };
-  const std::vector<double>&time = column("time_s"), &spin = column("spin_rad_s"),
-        &speed = column("speed_x"), &height = column("center_y_m"), &slip = column("slip_ratio");
-  const double from = pod.from.value_or(-1.0), end = time.empty() ? 0.0 : time.back();
-  for (std::size_t k = 0; k < time.size(); ++k) {
-    if (time[k] < from || time[k] > pod.to.value_or(end)) continue;
-    ranges.angular_velocity.take(spin[k]);
-    ranges.speed.take(speed[k]);
-    ranges.height.take(height[k]);
-    ranges.slip_ratio.take(slip[k]);
-  }
-}
-
 ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
   const PodRequest pod = pod_request(r, "displacement");
   ModelRanges ranges;
@@ -186,14 +168,11 @@ ModelRanges ranges_of(const ReduceRequest& r, const Source& source) {
     if (c.ground) ranges.friction.take(c.ground->friction);
   for (const SnapshotColumn& column : columns_of(pod, snapshot_choice_of(pod), source.runs)) {
     const Case& c = source.cases[column.run];
-    if (c.rim) continue;
     ranges.angular_velocity.take(c.motion.angular_velocity.at(column.time));
     ranges.speed.take(c.motion.speed.at(column.time));
     ranges.height.take(c.motion.height.at(column.time));
     ranges.slip_ratio.take(slip_ratio_at(c, column.time));
   }
-  for (std::size_t k = 0; k < source.runs.size(); ++k)
-    if (source.cases[k].rim) take_history(source.runs[k].directory(), pod, ranges);
   return ranges;
 }
 
@@ -271,9 +250,8 @@ ContactChoice choose_contact(const ReduceRequest& request, const mesh::Mesh& mes
   return contact;
 }
 
-/// @param rim includes the data for a free rim
 rom::ReducedModel make_model(const ReduceRequest& request, const Setup& setup,
-                             const MatrixXd& basis, const ContactChoice& contact, bool rim) {
+                             const MatrixXd& basis, const ContactChoice& contact) {
   rom::ReducedModel model = rom::make_reduced_model(
       {setup.mesh, setup.model.mass,
        [&](std::span<const Vec2> in, std::span<Vec2> out) {
@@ -281,14 +259,13 @@ rom::ReducedModel make_model(const ReduceRequest& request, const Setup& setup,
        }},
       basis, is_turning(request) ? rom::ModelFrame::turning : rom::ModelFrame::rectified);
   rom::set_contact(setup.mesh, contact.form, contact.weights, model);
-  if (rim) model.rim = rom::make_rim_modes(setup.mesh, setup.model.mass, model);
   return model;
 }
 
 ReducedFile make_file(const ReduceRequest& request, const Source& source, const Setup& setup,
                       const MatrixXd& basis, const ContactChoice& contact) {
   ReducedFile file;
-  file.model = make_model(request, setup, basis, contact, false);
+  file.model = make_model(request, setup, basis, contact);
   file.mesh = setup.mesh;
   file.mass = setup.model.mass;
   file.body = body_text(source.cases.front());
@@ -334,9 +311,8 @@ ErrorEstimate estimate_errors(const ReduceRequest& r, const Source& source, cons
     const MatrixXd basis =
         basis_of(r, setup.mesh, roots, modes_without(*fields[0], columns[0], run),
                  modes_without(*fields[1], columns[1], run));
-    const MeanForce found = predicted_force(
-        source.cases[run], make_model(r, setup, basis, contact, source.cases[run].rim.has_value()),
-        source.runs[run]);
+    const MeanForce found =
+        predicted_force(source.cases[run], make_model(r, setup, basis, contact), source.runs[run]);
     estimate.runs.push_back(source.runs[run].directory().string());
     estimate.errors.push_back(errors_of(found, *own));
   }
