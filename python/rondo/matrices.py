@@ -105,7 +105,7 @@ def matrices_of(simulation: Simulation) -> Matrices:
              center: Sequence[float] | None) -> ContactRows:
         if displacement is None and time is None and angle is None and center is None:
             displacement = simulation.displacement
-        u = np.zeros(0) if displacement is None else of_all_nodes(displacement).ravel()
+        u = [] if displacement is None else of_all_nodes(displacement).ravel().tolist()
         at_angle, at_center = frame_of(time, angle, center)
         there = steps.contact_rows(at_angle, at_center, u)
         data, indices, indptr, size = there.pop("rows")
