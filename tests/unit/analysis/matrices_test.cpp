@@ -251,12 +251,14 @@ TEST(Matrices, AreRefusedWithoutAConstantStiffness) {
   EXPECT_NE(free.find("allowed: disk.rim = \"bonded\""), std::string::npos) << free;
 }
 
-TEST(Matrices, AreNoneOfACrush) {
-  const Case c = read_case(std::filesystem::path(RONDO_CASES) / "crush-smooth.toml");
-  const std::string text = refused([&] {
-    static_cast<void>(write_matrices(c, {"none.h5", 0.0, {}}));
-  });
-  EXPECT_NE(text.find("a crush has no motion"), std::string::npos) << text;
+TEST(Matrices, AreThoseOfAMotionInTime) {
+  for (const char* file : {"crush-smooth.toml", "steady-rolling.toml"}) {
+    const Case c = read_case(std::filesystem::path(RONDO_CASES) / file);
+    const std::string text = refused([&] {
+      static_cast<void>(write_matrices(c, {"none.h5", 0.0, {}}));
+    });
+    EXPECT_NE(text.find("is no motion in time"), std::string::npos) << text;
+  }
 }
 
 TEST(Matrices, ContactRowsAreRefusedWithoutGroundOrTime) {

@@ -100,10 +100,10 @@ void write_all(File& file, const Content& of) {
   if (of.contact) write_contact(file, of);
 }
 
-void refuse_crush(const Case& c) {
-  if (c.analysis.kind == AnalysisKind::crush)
-    throw case_error(c, "analysis.kind", "a crush has no motion, and so no operators of it",
-                     "\"dynamic\", with [motion], [time] and the same body");
+void refuse_still(const Case& c) {
+  if (!rules_of(c.analysis.kind).in_time)
+    throw case_error(c, "analysis.kind", "is no motion in time, whose matrices these are",
+                     "\"dynamic\", with [motion] and [time], from a start above the ground");
 }
 
 }  // namespace
@@ -112,7 +112,7 @@ MatricesReport write_matrices(const Case& c, const MatricesRequest& request) {
   if (request.output.empty() || request.output.filename().empty())
     throw request_error("-o", request.output.string(), "the matrices need a file",
                         "-o matrices.h5");
-  refuse_crush(c);
+  refuse_still(c);
   const Setup s = build(c, 1);
   if (request.warn)
     for (const auto* warnings : {&c.warnings, &s.warnings})

@@ -27,8 +27,8 @@ struct MatricesReport {
 };
 
 /// Builds the case as a run would, and writes its operators; the file is there as a whole or not at
-/// all. @throws InputError: what build() and make_operators() say, a crush, a wrong time, no file;
-/// FileError
+/// all. @throws InputError: what build() and make_operators() say, no motion in time, a wrong time,
+/// no file; FileError
 MatricesReport write_matrices(const Case& c, const MatricesRequest& request);
 
 }  // namespace rondo::study
