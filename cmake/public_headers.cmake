@@ -4,6 +4,7 @@
 set(RONDO_PUBLIC_HEADERS
     core/error.hpp core/version.hpp case/case.hpp case/setup.hpp
     output/run_options.hpp analysis/run.hpp analysis/build/build.hpp analysis/modes/modes.hpp
+    analysis/matrices/matrices.hpp analysis/matrices/operators.hpp analysis/matrices/contact_rows.hpp
     study/pod/pod.hpp study/reduce/reduce.hpp io/run_reader.hpp
     mesh/mesh.hpp mesh/disk.hpp mesh/gmsh_reader.hpp
     fem/elasticity.hpp fem/assembly.hpp fem/sector_stiffness.hpp fem/stress.hpp

@@ -25,6 +25,10 @@ struct ModesArguments : CaseArguments {
   study::ModesRequest request;  ///< default directory: name of the case and "-modes"
 };
 
+struct MatricesArguments : CaseArguments {
+  study::MatricesRequest request;
+};
+
 /// Report of what was written.
 struct FmuReport {
   std::filesystem::path file;
@@ -50,6 +54,7 @@ int pod(study::PodRequest request, Telling& tell);
 int reduce(study::ReduceRequest request, Telling& tell);
 int fmu(const study::FmuRequest& request, Telling& tell);
 int modes(ModesArguments arguments, Telling& tell);
+int matrices(MatricesArguments arguments, Telling& tell);
 int sweep(SweepArguments arguments, Telling& tell);
 /// Prints a JSON Schema. @param of  "case", "study", or a command with --json
 int schema(const std::string& of);

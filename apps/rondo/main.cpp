@@ -60,6 +60,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   study::ReduceRequest reduce_request;
   study::FmuRequest fmu_request;
   app::ModesArguments modes_arguments;
+  app::MatricesArguments matrices_arguments;
   app::SweepArguments sweep_arguments;
   app::ReportArguments report_arguments;
   const CLI::App* run = app::add_run(program, run_arguments, tell);
@@ -68,6 +69,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   const CLI::App* reduce = app::add_reduce(program, reduce_request, tell);
   const CLI::App* fmu = app::add_fmu(program, fmu_request, tell);
   const CLI::App* modes = app::add_modes(program, modes_arguments, tell);
+  const CLI::App* matrices = app::add_matrices(program, matrices_arguments, tell);
   const CLI::App* sweep = app::add_sweep(program, sweep_arguments, tell);
   const CLI::App* report = app::add_report(program, report_arguments);
   const CLI::App* schema = app::add_schema(program, schema_of);
@@ -85,6 +87,7 @@ int dispatch_command(CLI::App& program, int argc, char** argv, app::Telling& tel
   if (reduce->parsed()) return app::reduce(reduce_request, tell);
   if (fmu->parsed()) return app::fmu(fmu_request, tell);
   if (modes->parsed()) return app::modes(modes_arguments, tell);
+  if (matrices->parsed()) return app::matrices(matrices_arguments, tell);
   if (sweep->parsed()) return app::sweep(sweep_arguments, tell);
   if (report->parsed()) app::report(report_arguments);
   if (schema->parsed()) return app::schema(schema_of);

@@ -169,6 +169,20 @@ CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell)
   return modes;
 }
 
+CLI::App* add_matrices(CLI::App& program, MatricesArguments& arguments, Telling& tell) {
+  CLI::App* matrices = program.add_subcommand(
+      "matrices", "Writes mass, damping, stiffness, gyroscopic matrix and contact rows of a case");
+  add_case(*matrices, arguments);
+  add_output(*matrices, arguments.request.output, "File of the matrices, e.g. matrices.h5")
+      ->required();
+  add_options(*matrices, matrices_options(arguments.request));
+  add_telling(*matrices, tell, "Prints warnings and errors only");
+  matrices->footer(
+      "Example:\n  rondo matrices cases/rolling-flat.toml -o matrices.h5\n"
+      "Equation, signs, layout of the file, a reduced model made from it: docs/operators.md.");
+  return matrices;
+}
+
 CLI::App* add_schema(CLI::App& program, std::string& of) {
   CLI::App* schema = program.add_subcommand(
       "schema",
@@ -176,7 +190,8 @@ CLI::App* add_schema(CLI::App& program, std::string& of) {
   schema
       ->add_option("of", of,
                    "Kind of file, or command with --json: "
-                   "case | study | run.json | check | run | sweep | pod | reduce | fmu | modes")
+                   "case | study | run.json | check | run | sweep | pod | reduce | fmu | modes | "
+                   "matrices")
       ->required();
   schema->footer("Example:\n  rondo schema case > case.json\nFor editors: docs/machine.md.");
   return schema;

@@ -24,6 +24,7 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell);
 CLI::App* add_fmu(CLI::App& program, study::FmuRequest& r, Telling& tell);
 CLI::App* add_pod(CLI::App& program, study::PodRequest& r, Telling& tell);
 CLI::App* add_modes(CLI::App& program, ModesArguments& arguments, Telling& tell);
+CLI::App* add_matrices(CLI::App& program, MatricesArguments& arguments, Telling& tell);
 CLI::App* add_schema(CLI::App& program, std::string& of);
 CLI::App* add_sweep(CLI::App& program, SweepArguments& arguments, Telling& tell);
 

@@ -37,6 +37,7 @@ constexpr Schema schemas[] = {
     {"reduce", [] { return answer_schema("reduce", reduce_schema()); }},
     {"fmu", [] { return answer_schema("fmu", fmu_schema()); }},
     {"modes", [] { return answer_schema("modes", modes_schema()); }},
+    {"matrices", [] { return answer_schema("matrices", matrices_schema()); }},
 };
 
 }  // namespace

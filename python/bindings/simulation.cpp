@@ -15,6 +15,7 @@
 
 #include "arrays.hpp"
 #include "calls.hpp"
+#include "matrices.hpp"
 #include "options.hpp"
 #include "rondo/analysis/simulation/drive.hpp"
 #include "rondo/analysis/simulation/simulation.hpp"
@@ -90,6 +91,30 @@ class Steps {
   }
   py::object contacts();
   py::object frame();
+
+  py::dict operators() {
+    const Turn turn(busy_);
+    study::Operators found;
+    call_.work([&] { found = study::make_operators(any().case_as_driven(), any().setup()); });
+    call_.finish();
+    return operator_arrays(found, any().setup());
+  }
+  py::tuple frame_at(double time) {
+    const Turn turn(busy_);
+    const dynamics::Model& model = any().setup().model;
+    return frame_arrays(study::frame_at(model, time, "time"), model.components());
+  }
+  /// @param displacement (n, c), or nothing for 0
+  py::dict contact_rows(double angle, const std::vector<double>& center,
+                        const std::vector<double>& displacement) {
+    const Turn turn(busy_);
+    const dynamics::Model& model = any().setup().model;
+    const FieldView u =
+        displacement.empty() ? FieldView() : FieldView(displacement, model.components());
+    return contact_arrays(
+        study::contact_rows(any().case_as_driven(), model, {angle, center_of(center)}, u),
+        model.components());
+  }
 
   std::vector<double> row() {
     const Turn turn(busy_);
@@ -249,6 +274,10 @@ void add_simulation(py::module_& module) {
       .def("velocity", [](Steps& s) { return s.field(&study::ShownFields::velocity); })
       .def("contacts", &Steps::contacts)
       .def("frame", &Steps::frame)
+      .def("operators", &Steps::operators)
+      .def("frame_at", &Steps::frame_at, py::arg("time"))
+      .def("contact_rows", &Steps::contact_rows, py::arg("angle"), py::arg("center"),
+           py::arg("displacement"))
       .def("row", &Steps::row)
       .def("columns", &Steps::columns)
       .def("rows", &Steps::rows)

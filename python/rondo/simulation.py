@@ -19,6 +19,7 @@ from .data.history import History, units_of
 from .data.html import table
 from .data.mesh import Mesh
 from .data.names import find_name
+from .matrices import Matrices, matrices_of
 from .native import Place, core, documented, options_in, pairs_of, place_of, settings_of, whole_number
 
 if TYPE_CHECKING:
@@ -275,6 +276,11 @@ class Simulation:
         """run.json as far as it has come."""
         info: dict[str, Any] = json.loads(self._steps.info())
         return info
+
+    def matrices(self) -> Matrices:
+        """Mass, damping, stiffness and gyroscopic matrix of the motion as scipy.sparse has them, and
+        rows of its contacts: docs/operators.md. Those of a body with a constant stiffness."""
+        return matrices_of(self)
 
     # Its end
 

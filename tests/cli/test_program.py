@@ -171,7 +171,7 @@ class Program(ProgramTest):
             done = run(*arguments)
             self.assertEqual((done.returncode, done.stdout), (2, ""), arguments)
             self.assertIn(f"rondo {arguments[0]}: there is no such command", done.stderr)
-            self.assertIn("run, check, pod, reduce, fmu, modes", done.stderr)
+            self.assertIn("run, check, pod, reduce, fmu, modes, matrices", done.stderr)
             self.assertEqual(f"did you mean rondo {meant}?" in done.stderr, meant is not None)
 
     def test_no_progress_bar_where_there_is_no_terminal(self):

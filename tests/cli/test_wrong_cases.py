@@ -234,7 +234,7 @@ class WrongUsage(ProgramTest):
         """As of a variable of the shell that is not set."""
         case = self.case()
         for arguments in (["run", case], ["modes", case], ["sweep", case], ["pod", self.folder],
-                          ["reduce", self.folder], ["fmu", case]):
+                          ["reduce", self.folder], ["fmu", case], ["matrices", case]):
             done = run(*arguments, "-o", "", cwd=self.folder)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertRegex(done.stderr, "-o|--output")

@@ -53,6 +53,7 @@ ALLOWED["analysis/base"] = SOLIDS | {"model", "case", "io", "output"}
 ALLOWED["analysis/steady"] = (ALLOWED["analysis/build"] | ALLOWED["analysis/base"] |
                               {"statics/steady", "modal", "analysis/base", "analysis/build",
                                "analysis/figures"})
+ALLOWED["analysis/matrices"] = ALLOWED["analysis/build"] | {"io", "io/h5", "analysis/build"}
 ALLOWED["analysis"] = set(ALLOWED)
 ALLOWED["analysis/modes"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["analysis/simulation"] = ALLOWED["analysis"] | {"analysis"}
@@ -61,11 +62,12 @@ ALLOWED["study/sweep"] = ALLOWED["analysis"] | {"analysis"}
 ALLOWED["study/shards"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/pod"] = ALLOWED["study/sweep"] | {"study/sweep"}
 ALLOWED["study/reduce"] = ALLOWED["study/pod"] | {"study/pod"}
-ALLOWED["study/options"] = ALLOWED["study/reduce"] | {"study/reduce", "analysis/modes"}
+ALLOWED["study/options"] = ALLOWED["study/reduce"] | {"study/reduce", "analysis/matrices",
+                                                             "analysis/modes"}
 ALLOWED["study/run_json"] = ALLOWED["analysis/modes"] | {"analysis/modes"}
 ALLOWED["apps"] = {"core", "case", "output", "analysis/base", "analysis/build", "analysis",
-                   "analysis/modes", "fmu", "io", "study/pod", "study/sweep", "study/shards",
-                   "study/reduce", "study/run_json", "study/options"}
+                   "analysis/matrices", "analysis/modes", "fmu", "io", "study/pod", "study/sweep",
+                   "study/shards", "study/reduce", "study/run_json", "study/options"}
 ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout of its output
 
 # Libraries that only these modules may see.

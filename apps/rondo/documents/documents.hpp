@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "rondo/analysis/matrices/matrices.hpp"
 #include "rondo/analysis/modes/modes.hpp"
 #include "rondo/analysis/registry.hpp"
 #include "rondo/case/schema/members.hpp"
@@ -38,6 +39,9 @@ Json fmu_schema();
 
 Json modes_document(const study::ModesReport& report);
 Json modes_schema();
+
+Json matrices_document(const study::MatricesReport& report);
+Json matrices_schema();
 
 /// @param unfinished numbers of the shards that are not, of --collect
 Json sweep_document(const study::SweepReport& report, const std::filesystem::path& directory,

@@ -20,10 +20,12 @@ struct Requests {
   ReduceRequest reduce;
   SweepRequest sweep;
   FmuRequest fmu;
+  MatricesRequest matrices;
 
   std::vector<Options> all() {
-    return {run_options(run),       modes_options(modes), pod_options(pod),
-            reduce_options(reduce), sweep_options(sweep), fmu_options(fmu)};
+    return {run_options(run),          modes_options(modes), pod_options(pod),
+            reduce_options(reduce),    sweep_options(sweep), fmu_options(fmu),
+            matrices_options(matrices)};
   }
 };
 

@@ -202,4 +202,8 @@ Options fmu_options(FmuRequest& r) {
   };
 }
 
+Options matrices_options(MatricesRequest& r) {
+  return {{"--time", "", &r.time, "Time at which the contact rows are those of the motion", "s"}};
+}
+
 }  // namespace rondo::study

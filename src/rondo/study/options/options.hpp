@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "rondo/analysis/matrices/matrices.hpp"
 #include "rondo/analysis/modes/modes.hpp"
 #include "rondo/study/pod/pod.hpp"
 #include "rondo/study/reduce/reduce.hpp"
@@ -64,6 +65,7 @@ Options pod_options(PodRequest& request);
 Options reduce_options(ReduceRequest& request);
 Options sweep_options(SweepRequest& request);
 Options fmu_options(FmuRequest& request);
+Options matrices_options(MatricesRequest& request);
 /// 0: chosen by size.
 Option threads_option(int& threads);
 
