@@ -80,7 +80,7 @@ def predict(options, mesh, folder, name):
     points = inside(options.points, options.seed)
     held = full_runs(options, mesh, folder, points, ["--set", "output.snapshots=0"])
     if options.wheel:
-        words = ["--reduced", "case"]
+        words = ["--reduced", "case", "--estimate"]
     else:
         taught = full_runs(options, mesh, folder, list(corners()), [])
         model = folder / f"model{name}.h5"
@@ -92,7 +92,8 @@ def predict(options, mesh, folder, name):
         rondo(options.program, "run", CASE, "-o", out, "--overwrite", *words, *settings(point, mesh),
               "--set", "output.snapshots=0", *options.run.split())
         (fx, fy, nodes), (x, y, _) = means(full), means(out)
-        estimate = json.loads((out / "run.json").read_text()).get("reduced_error_estimate")
+        told = json.loads((out / "run.json").read_text())
+        estimate = told["wheel_estimate"] if options.wheel else told.get("reduced_error_estimate")
         found.append((100 * (x - fx) / fy, 100 * (y - fy) / fy, estimate))
         print(f"| {mesh} | {point[0]:.3f} | {point[1]:.4f} | {point[2]:.2f} | {point[3]:.3f} | {nodes:.1f} | "
               f"{fx / fy:.3f} | {found[-1][0]:.2f} % | {found[-1][1]:.2f} % |", flush=True)
@@ -102,12 +103,14 @@ def predict(options, mesh, folder, name):
 def summary(mesh, found):
     def of(name, index):
         errors = sorted(abs(one[index]) for one in found)
+        own = [100 * one[2]["force_" + name[-1]] for one in found if one[2]]
         line = (f"{mesh}: {name} largest {errors[-1]:.2f} %, median {errors[len(errors) // 2]:.2f} %, "
                 f"{sum(e > 1.6 for e in errors)} of {len(errors)} above 1.6 %")
-        estimate = found[0][2]
-        if estimate:
-            bound = 100 * estimate["force_" + name[-1]]
-            line += (f"; estimated {bound:.2f} %, which covers {sum(e <= bound for e in errors)}")
+        if own:
+            covered = [sum(abs(one[index]) <= times * bound for one, bound in zip(found, own))
+                       for times in (1, 2)]
+            line += (f"; estimated {min(own):.2f} to {max(own):.2f} %, which covers {covered[0]}, "
+                     f"twice it {covered[1]}")
         print(line, flush=True)
     of("F_x", 0)
     of("F_y", 1)

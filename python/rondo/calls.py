@@ -78,7 +78,7 @@ def _check(outcome: tuple[str, str], directory: pathlib.Path) -> None:
 @documented("run")
 def run(case: Place, output: Place | None = None, settings: Mapping[str, Any] | None = None, *,
         overwrite: bool = False, resume: bool = False, threads: int | None = None,
-        reduced: Place | None = None, modes: int | None = None,
+        reduced: Place | None = None, modes: int | None = None, estimate: bool = False,
         step_factor: float | None = None, reduced_step: str | None = None,
         snapshots: str | None = None,
         modes_from: Place | None = None, arguments: Sequence[str | os.PathLike[str]] = ()) -> Run:

@@ -10,6 +10,7 @@ OPTIONS: dict[str, dict[str, tuple[str, str]]] = {
         "modes_from": ("Place | None = None", "Results directory of a run of the same body; a crush by analysis.solver = latin-pgd begins with the modes of this run"),
         "reduced": ("Place | None = None", "Runs a reduced wheel instead of the mesh: `case` for one made of the case, or a model of rondo.reduce"),
         "modes": ("int | None = None", "Number of modes of a reduced wheel made of the case; chosen by its step if left out"),
+        "estimate": ("bool = False", "Runs a reduced wheel made of the case again, with half the step and with twice the modes, and tells how far its mean forces differ"),
         "step_factor": ("float | None = None", "Step of a reduced run over that of the full run; default 20"),
         "reduced_step": ("str | None = None", "Number of seconds, the step of a wheel made of the case, which is chosen by spin and contact if left out; scheme of the step of a model: midpoint | explicit; default midpoint"),
         "snapshots": ("str | None = None", "Snapshots of a reduced run as fields, or as coordinates of the modes, which are far cheaper, have no stress, and become fields in Python: fields | modes; default fields"),
@@ -53,7 +54,7 @@ OPTIONS: dict[str, dict[str, tuple[str, str]]] = {
         "resume": ("bool = False", "Resumes a sweep, or a shard, that was interrupted"),
     },
     "fmu": {
-        "case": ("Place | None = None", "Case file with ground, dampings, gravity and start; if left out, that of the model's first run"),
-        "step_factor": ("float | None = None", "Largest internal step over that of the full run; default 20"),
+        "modes": ("int | None = None", "Number of modes; if left out, chosen as for rondo run --reduced"),
+        "reduced_step": ("float | None = None", "Largest internal step [s]; if left out, chosen likewise"),
     },
 }

@@ -81,7 +81,7 @@ class Solution:
 
 @documented("run")
 def solve(case: Place, settings: Mapping[str, Any] | None = None, *, threads: int | None = None,
-          reduced: Place | None = None, modes: int | None = None,
+          reduced: Place | None = None, modes: int | None = None, estimate: bool = False,
           step_factor: float | None = None, reduced_step: str | None = None,
           modes_from: Place | None = None) -> Solution:
     """Solves a case of any analysis in this process and keeps what it finds in memory: no files,

@@ -184,6 +184,37 @@ class State(FmuTest):
                       self.refused(other, "DeSerializeFMUstate", data, ctypes.c_size_t(size.value - 8),
                                    ctypes.byref(state)))
 
+    def test_a_state_goes_to_an_instance_that_has_not_begun(self):
+        """Nor began with the same velocity: what is made once does not depend on the inputs."""
+        names = ("force_x", "force_y", "torque", "hub_angle")
+        fmu = self.instance()
+        for k in range(60):
+            fmu.set(hub_velocity_x=5.0 + 0.6 * k, hub_velocity_y=-0.1,
+                    hub_angular_velocity=16.8 + 2.0 * k)
+            fmu.step(k * 1e-4, 1e-4)
+        saved, size = fmu.save(), ctypes.c_size_t()
+        fmu.call("SerializedFMUstateSize", saved, ctypes.byref(size))
+        data = ctypes.create_string_buffer(size.value)
+        fmu.call("SerializeFMUstate", saved, data, size)
+        fmu.free_state(saved)
+
+        def go_on(wheel):
+            out = []
+            for k in range(20):
+                wheel.set(hub_velocity_x=41.0, hub_velocity_y=0.0, hub_angular_velocity=136.8)
+                wheel.step(6e-3 + k * 1e-4, 1e-4)
+                out.append(wheel.get(*names))
+            return out
+
+        expected = go_on(fmu)
+        for other in (self.instance(begins=False),
+                      self.instance(hub_velocity_x=40.0, hub_angular_velocity=130.0)):
+            state = ctypes.c_void_p()
+            other.call("DeSerializeFMUstate", data, size, ctypes.byref(state))
+            other.restore(state)
+            self.assertEqual(go_on(other), expected)
+            other.free_state(state)
+
     def test_damaged_bytes_are_refused(self):
         fmu = self.instance()
         fmu.step(0.0, 4e-4)
@@ -561,9 +592,18 @@ class Wrong(FmuTest):
         self.rolls_as_its_own_run(case, True)
 
     def test_a_steady_start(self):
+        """The height comes from the importer, not from the table of the case."""
         self.rolls_as_its_own_run(ROOT / "cases" / "rolling-flat.toml", False,
-                                  ["initial.state=steady-rolling", "motion.height=0.29"],
-                                  hub_height_start=0.29)
+                                  ["initial.state=steady-rolling"], hub_height_start=0.29)
+        fmu = Fmu(self.folder / "rolling-flat")
+        self.addCleanup(fmu.free)
+        with self.assertRaisesRegex(RuntimeError, "does not roll steadily"):
+            fmu.begin(hub_height_start=0.29, hub_velocity_x=0.0, hub_angular_velocity=0.0)
+
+    def test_shipped_cases_have_a_step(self):
+        for name in ("wheel-rolling", "wheel-landing", "pothole-load"):
+            done = made("fmu", ROOT / "cases" / f"{name}.toml", "-o", self.folder / "it.fmu", "--json")
+            self.assertGreater(json.loads(done.stdout)["result"]["step"], 1e-4, name)
 
     def test_two_fmus_in_a_process(self):
         """Each is its own library: neither sees what the other does."""

@@ -72,7 +72,9 @@ class Members(ProgramTest):
                                          for part in ("--set", text)), "--modes-from", self.folder / "latin-pgd")
         self.made("mesh", "run", ROOT / "cases" / "bar-on-wall.toml", "--set", "time.end=0.01")
         self.made("failed", "run", case, "--set", "initial.velocity=[1e20, 0]", code=3)
-        self.made("wheel-of-case", "run", case, "--reduced", "--set", BRIEF)
+        self.made("wheel-of-case", "run", case, "--reduced", "--estimate", "--set", BRIEF)
+        self.made("wheel-in-the-air", "run", case, "--reduced", "--estimate", "--set", BRIEF, "--set",
+                  "motion.height=0.4")
         self.made("modes", "modes", case, "--count", "2", "--diameters", "2")
         for runs in (["plain"], ["plain", "slow", "fast"]):
             done = run("reduce", *(self.folder / name for name in runs), "-o", model, "--displacement-modes", 4,

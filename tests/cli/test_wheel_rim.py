@@ -92,8 +92,32 @@ class Rim(WheelTest):
         self.same_bits(out)
 
     def test_a_spin_beyond_what_is_known(self):
+        """It outgrows the step, too; in the end it turns too far in a step."""
         _, done = self.wheel("--set", "rim.torque=[[0, 2e5]]", case=shipped("wheel-driven", end=0.05))
         self.assertIn("is extrapolated", done.stderr)
+        self.assertIn("steps in the pass of a sector", done.stderr)
+        _, done = self.wheel("--set", "rim.torque=[[0, 2e5]]", "--overwrite", code=3,
+                             case=shipped("wheel-driven", end=0.3))
+        self.assertIn("turn", done.stderr)
+
+    def test_a_steady_start_is_one(self):
+        """On a rim that is held, and on one whose load is that of the steady state."""
+        case = shipped("wheel-rolling", end=0.02)
+        settings = ["initial.state=steady-rolling", "motion.height=0.291675",
+                    "rim.force_y=[[0, -1.5e5]]"]
+        for free in ('["height"]', "[]"):
+            words = settings + [f"rim.free={free}"]
+            if free == "[]":
+                words = settings[:2] + ["rim.free=[]", "rim.force_y=0", "rim.support.y.damping=0"]
+            out, _ = self.wheel(*(word for s in words for word in ("--set", s)), "--overwrite",
+                                case=case)
+            self.assertLess(abs(np.asarray(history(out)["force_y"])[:5] / 1.5e5 - 1.0).max(), 0.02)
+
+    def test_check_tells_the_step(self):
+        done = run("check", ROOT / "cases" / "wheel-rolling.toml", "--reduced")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"integrator +reduced wheel with exact contact")
+        self.assertRegex(done.stdout, r"steps in a pass +2\.618")
 
 
 if __name__ == "__main__":

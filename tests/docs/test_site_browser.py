@@ -128,9 +128,9 @@ def searches(driver, base):
 
 def anchor(driver, base):
     """A link to a heading, as the sources have it, lands at that heading."""
-    driver.get(f"{base}/docs/reduced.html#12-a-rim-that-moves-by-itself")
+    driver.get(f"{base}/docs/reduced.html#0-a-wheel-made-of-the-case")
     top = until("the heading is not in sight", lambda: driver.execute_script(
-        "const y = document.getElementById('12-a-rim-that-moves-by-itself').getBoundingClientRect().top;"
+        "const y = document.getElementById('0-a-wheel-made-of-the-case').getBoundingClientRect().top;"
         "return y > -5 && y < 200 ? [y] : null"))
     assert top
 

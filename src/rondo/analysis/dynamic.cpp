@@ -90,10 +90,14 @@ CheckReport DynamicAnalysis::check(double trial) {
   r.disk_bytes = disk_needed(record_plan(), resumable() != nullptr).all;
   r.seconds = seconds_per_step(trial) * static_cast<double>(setup_.n_steps);
   r.lines = setup_.figures;
-  r.lines.emplace_back("integrator", told_step(case_, setup_.model));
+  r.lines.emplace_back("integrator", told_integrator());
   for (auto& told : step_lines(case_, setup_)) r.lines.push_back(std::move(told));
   r.warnings = warnings();
   return r;
+}
+
+std::string DynamicAnalysis::told_integrator() const {
+  return told_step(case_, setup_.model);
 }
 
 RecordPlan DynamicAnalysis::record_plan() const {

@@ -65,6 +65,8 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   [[nodiscard]] virtual History::Length reported_length() const noexcept {
     return History::Length::undeformed;
   }
+  /// Which step it makes, in words.
+  [[nodiscard]] virtual std::string told_integrator() const;
   /// Fills the fields of the state after the last step, where the integrator left some out.
   virtual void complete(dynamics::State& /*state*/) {}
   /// Adds the values of the plan's series to a snapshot of the state.

@@ -48,7 +48,7 @@ class Archive {
   }
   void operator()(dynamics::SavedState& s) { all(s.step, s.ring, s.ledger); }
   void operator()(SavedWheel& s) {
-    all(s.values, s.dt, s.velocity_x, s.velocity_y, s.angular_velocity, s.state);
+    all(s.values, s.start, s.dt, s.velocity_x, s.velocity_y, s.angular_velocity, s.state);
   }
 
   [[nodiscard]] std::vector<char>& bytes() noexcept { return to_; }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <mutex>
@@ -35,9 +36,22 @@ dynamics::Table height_table(double height, double velocity) {
   return dynamics::Table({{0.0, height}, {1.0, height + velocity}});
 }
 
-/// The importer prescribes the hub: it is constrained, and no other load acts on it.
+constexpr double led_speed = 60.0;  ///< to which a wheel may be led at least           [m/s]
+
+/// Spin up to which the residual is made, whatever the inputs: states go from one instance to
+/// another.
+double led_spin(const study::Case& c) {
+  return std::max(2.0 * c.motion.angular_velocity.largest(), led_speed / c.disk.outer_radius);
+}
+
+/// The importer prescribes the hub: it is constrained, and no other load acts on it. Only the start
+/// of its motion is known.
 study::Case case_of(const study::Case& given, const Values& v) {
+  if (given.initial.state == study::InitialState::steady_rolling && v.hub_angular_velocity == 0.0)
+    throw study::case_error(given, "initial.state", "a wheel that stands does not roll steadily",
+                            "a hub_angular_velocity other than 0 at the start, or \"rest\"");
   study::Case c = given;
+  c.time.end = 1e-6;
   c.rim = dynamics::RimBody{};
   c.ground->friction = v.friction;
   c.motion.start_x = v.hub_x_start;
@@ -112,7 +126,7 @@ void Wheel::begin(Values& values) {
   Body& b = *body;
   b.c = case_of(case_, values);
   b.setup = study::build(b.c, 1);
-  study::prepare_wheel(b.c, options_, true, b.setup, b.wheel);
+  study::prepare_wheel(b.c, options_, led_spin(case_), b.setup, b.wheel);
   b.largest_step = values.step > 0.0 ? values.step : b.setup.model.dt;
   b.start =
       dynamics::start(b.setup.model, b.setup.displacement, b.setup.velocity, b.setup.half_velocity);
@@ -121,7 +135,8 @@ void Wheel::begin(Values& values) {
   // Warnings about [motion] are replaced by those about the inputs.
   for (const auto* said : {&b.setup.warnings, &b.wheel.warnings})
     for (const std::string& text : *said)
-      if (!text.starts_with("motion.")) warn(text);
+      if (text.find("motion.") == std::string::npos && text.find("time.step") == std::string::npos)
+        warn(text);
   b.hub = velocities(values);
   make_integrator(b.largest_step);
   b.mass = b.integrator->rim()->whole_mass();
@@ -297,6 +312,7 @@ SavedWheel Wheel::save(const Values& values) const {
   const Body& b = *body_;
   SavedWheel s;
   s.values = values;
+  s.start = b.parameters;
   s.dt = b.dt;
   s.velocity_x = b.hub[0];
   s.velocity_y = b.hub[1];
@@ -305,13 +321,11 @@ SavedWheel Wheel::save(const Values& values) const {
   return s;
 }
 
-/// If the state is from before the first step, or has other parameters, the wheel is made again.
+/// If the state is from before the first step, or has other parameters, the wheel is made again, as
+/// it was made at first.
 void Wheel::restore(const SavedWheel& s, Values& values) {
   const BorrowedBlas blas;
-  Values start = s.values;
-  start.hub_velocity_x = s.velocity_x;
-  start.hub_velocity_y = s.velocity_y;
-  start.hub_angular_velocity = -s.angular_velocity;
+  Values start = s.start;
   if (!s.state || !body_ || !same_parameters(body_->parameters, start)) begin(start);
   Body& b = *body_;
   if (s.state) {

@@ -18,6 +18,7 @@ namespace rondo::fmu {
 /// All data that a wheel carries from one communication step to the next.
 struct SavedWheel {
   Values values;
+  Values start;     ///< with which the wheel was made
   double dt = 0.0;  ///< internal step used; 0: no step was made                                [s]
   double velocity_x = 0.0, velocity_y = 0.0, angular_velocity = 0.0;  ///< at the last step's end
   std::optional<dynamics::SavedState> state;  ///< step, ring and ledger; none: no step was made

@@ -36,6 +36,7 @@ struct RunOptions {
   std::optional<long long> reduced_modes;    ///< of a wheel of the case; none: chosen
   double step_factor = 20.0;                 ///< reduced: its step / step of the full run
   std::string reduced_step = "midpoint";     ///< reduced: or "explicit"; or a number [s]
+  bool reduced_estimate = false;             ///< of a wheel of the case: of its errors
   std::string reduced_snapshots = "fields";  ///< reduced: or "modes", fields computed on reading
   std::filesystem::path modes_from;  ///< run whose modes start a crush by LATIN-PGD; or empty
   std::string modes_told;            ///< its name in run.json; empty: modes_from

@@ -90,7 +90,7 @@ void WheelRun::begin(const dynamics::State& at_start) {
   wheel_.start(start, at_start.u, at_start.v);
   frame_ = dynamics::frame_step(model_.motion, 0, model_.dt);
   if (rim_) {
-    rim_->start(wheel_.sums());
+    rim_->start(wheel_.sums(), wheel_.force_at_start());
     frame_ = rim_->frame();
   }
   ledger_.compare(energy_of(wheel_.energy_at_start(!rim_)));
@@ -156,7 +156,7 @@ void WheelRun::count(const WheelReport& wheel, double seconds) {
   figures_.contacts_max = std::max(figures_.contacts_max, static_cast<int>(wheel.contacts.size()));
   figures_.pivoted += wheel.pivoted ? 1 : 0;
   figures_.not_converged += is_solved(wheel) && !(rim_ && rim_->gave_up()) ? 0 : 1;
-  if (rim_) figures_.spin_max = std::max(figures_.spin_max, std::abs(rim_->spin()));
+  if (rim_) figures_.spin_max = rim_->most_spin();
   figures_.wall_s += seconds;
   figures_.slowest_step_s = std::max(figures_.slowest_step_s, seconds);
 }

@@ -32,7 +32,8 @@ FramePlace frame_at(const dynamics::Model& model, double time, const std::string
   if (!(time >= 0.0) || !std::isfinite(time))
     throw request_error(option, fmt::format("{}", time), "is no time of the motion",
                         "a number of seconds, 0 or more");
-  if (model.rim && time > 0.0)
+  const bool moves = model.rim && (model.rim->free_x || model.rim->free_y || model.rim->free_spin);
+  if (moves && time > 0.0)
     throw request_error(option, fmt::format("{}", time),
                         "forces move the rim: where it is then is known from a run alone",
                         "0; in Python the angle and center of a run");

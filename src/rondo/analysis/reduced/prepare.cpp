@@ -103,6 +103,12 @@ void check_impacts(const Case& c, const ReducedRun& run) {
                    "--reduced-step explicit");
 }
 
+void refuse_estimate(const RunOptions& options) {
+  if (options.reduced_estimate)
+    throw request_error("--estimate", "", "is of a wheel that is made of the case",
+                        "--reduced without a file; rondo reduce estimates the errors of a model");
+}
+
 void refuse_rim(const Case& c) {
   if (!c.rim) return;
   throw case_error(c, "rim", "the rim of a model of runs follows the tables of [motion]",
@@ -192,6 +198,7 @@ ReducedRun prepare_reduced(const Case& c, const RunOptions& options, Setup& setu
   for (const auto& [name, lifts] : snapshot_names)
     if (options.reduced_snapshots == name) run.lifts = lifts;
   check_impacts(c, run);
+  refuse_estimate(options);
   refuse_rim(c);
   run.step_factor = options.step_factor;
   run.full_step = setup.model.dt;

@@ -34,7 +34,7 @@ double radius_of(const Setup& setup) {
 
 /// The spin that torque and ground let the wheel reach is known only afterwards: at least that of
 /// free rolling is expected.
-ExpectedContact expected(const Case& c, const Setup& setup) {
+ExpectedContact expected(const Case& c, bool led, const Setup& setup) {
   ExpectedContact e;
   const double radius = radius_of(setup);
   e.spin = c.motion.angular_velocity.largest();
@@ -44,10 +44,11 @@ ExpectedContact expected(const Case& c, const Setup& setup) {
   for (const auto& point : c.motion.height.points()) lowest = std::min(lowest, point[1]);
   const double top = setup.model.contact->ground.top();
   const double above = std::clamp(lowest - (std::isfinite(top) ? top : 0.0), 0.0, radius);
-  const bool lowers_itself = c.rim && c.rim->free_y;
+  const bool lowers_itself = led || (c.rim && c.rim->free_y);
   if (!lowers_itself) e.length = 2.0 * std::sqrt(radius * radius - above * above);
-  if (e.spin > 0.0) e.pass = 2.0 * std::numbers::pi / setup.mesh.n_sectors / e.spin;
   e.spacing = 2.0 * std::numbers::pi * radius / static_cast<double>(setup.mesh.boundary.size());
+  if (e.length < e.spacing) e.length = 0.0;  // it may not touch at all
+  if (e.spin > 0.0) e.pass = 2.0 * std::numbers::pi / setup.mesh.n_sectors / e.spin;
   return e;
 }
 
@@ -74,13 +75,11 @@ double step_of(const RunOptions& options, const ExpectedContact& e) {
 
 /// Spins of the residual: those of the tables; of a free or led spin well beyond what is expected,
 /// as far as no spin there is critical.
-rom::KnownSpins spins_of(const Case& c, bool led, double expected, double radius) {
+rom::KnownSpins spins_of(const Case& c, std::optional<double> led, double expected, double radius) {
+  if (led) return {0.0, *led, true};
   const bool free = c.rim && c.rim->free_spin;
-  rom::KnownSpins spins{expected, expected, true};
-  if (free) spins.most = beyond_expected * expected;
-  if (led) spins.most = std::max(beyond_expected * expected, led_speed / radius);
-  spins.change = free || led || c.motion.angular_velocity.points().size() > 1;
-  return spins;
+  if (!free) return {expected, expected, c.motion.angular_velocity.points().size() > 1};
+  return {expected, expected > 0.0 ? beyond_expected * expected : led_speed / radius, true};
 }
 
 rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
@@ -129,10 +128,12 @@ void move_masses(const Case& c, Setup& setup) {
   model.lumped_mass = std::exchange(model.mass, std::move(moved.mass));
 }
 
-void warn_of(const Setup& setup, bool led, PreparedWheel& w) {
+void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
   const ExpectedContact& e = w.expected;
   const double dt = setup.model.dt;
   const auto warn = [&](std::string text) { w.warnings.push_back(std::move(text)); };
+  if (c.time.step)
+    warn("time.step is that of the full run: the step of a reduced wheel is --reduced-step");
   if (e.length > 0.0 && e.length < 5.0 * e.spacing)
     warn(
         fmt::format("contact has {:.1f} nodes at the lowest motion.height: forces of fewer than 5 "
@@ -174,12 +175,12 @@ double PreparedWheel::highest() const {
   return most;
 }
 
-void prepare_wheel(const Case& c, const RunOptions& options, bool led, Setup& setup,
-                   PreparedWheel& wheel) {
+void prepare_wheel(const Case& c, const RunOptions& options, std::optional<double> led,
+                   Setup& setup, PreparedWheel& wheel) {
   refuse(c, options, setup);
   move_masses(c, setup);
   wheel.full_step = setup.model.dt;
-  wheel.expected = expected(c, setup);
+  wheel.expected = expected(c, led.has_value(), setup);
   setup.model.dt = step_of(options, wheel.expected);
   setup.n_steps = count_steps(c, setup.model.dt);
   wheel.ring.emplace(rom::ring_of(setup.model));
@@ -189,7 +190,7 @@ void prepare_wheel(const Case& c, const RunOptions& options, bool led, Setup& se
   setup.reduced = fmt::format("a reduced wheel of {} modes with a step of {:.17g} s",
                               wheel.n_modes(), setup.model.dt);
   setup.saved_numbers = rom::WheelRun::n_numbers(setup.model, *wheel.ring, wheel.model);
-  warn_of(setup, led, wheel);
+  warn_of(c, setup, led.has_value(), wheel);
 }
 
 }  // namespace rondo::study

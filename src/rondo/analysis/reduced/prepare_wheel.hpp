@@ -38,9 +38,9 @@ struct PreparedWheel {
 };
 
 /// Gives the setup the masses and the step of a reduced wheel. The setup must stay where it is.
-/// @param led the spin comes from outside while the wheel runs
+/// @param led the spin comes from outside while the wheel runs, up to this [rad/s]
 /// @throws InputError: what a reduced wheel cannot do, or options that do not go with it
-void prepare_wheel(const Case& c, const RunOptions& options, bool led, Setup& setup,
-                   PreparedWheel& wheel);
+void prepare_wheel(const Case& c, const RunOptions& options, std::optional<double> led,
+                   Setup& setup, PreparedWheel& wheel);
 
 }  // namespace rondo::study

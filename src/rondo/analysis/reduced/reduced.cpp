@@ -44,11 +44,6 @@ void refuse_other_phases(const Case& c, const ReducedRun& run) {
                    "motion.angular_velocity as a table from the start, [[0, w], [1, w]]");
 }
 
-/// Null where there is next to none of what the error is of.
-Json known(double error) {
-  return std::isnan(error) ? Json() : Json(error);
-}
-
 constexpr JsonMember<ForceErrors> estimate_rows[] = {
     {"force_x", "number", "", "Error of the mean F_x, over the mean F_y",
      [](const ForceErrors& e) -> Json { return e.x; }},
@@ -138,8 +133,7 @@ constexpr JsonMember<ReducedEnd> figure_rows[] = {
      [](const ReducedEnd& e) -> Json { return e.f.contacts_max; }},
     {"steps_with_more_rows_than_modes", "integer", "", "Steps with more rows of contact than modes",
      [](const ReducedEnd& e) -> Json { return e.f.more_rows_than_modes; }},
-    {"steps_not_converged", "integer", "",
-     "Steps whose contact missed the tolerance, or whose brake no try held",
+    {"steps_not_converged", "integer", "", "Steps whose contact missed the tolerance",
      [](const ReducedEnd& e) -> Json { return e.f.not_converged; }},
 };
 constexpr JsonMember<ReducedEnd> reduced_end_rows[] = {

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "rondo/analysis/dynamic.hpp"
+#include "rondo/analysis/reduced/estimate_wheel.hpp"
 #include "rondo/analysis/reduced/prepare_wheel.hpp"
 #include "rondo/case/case_source.hpp"
 
@@ -51,7 +53,8 @@ constexpr JsonMember<WheelEnd> effort_rows[] = {
      [](const WheelEnd& e) -> Json { return e.f.contacts_max; }},
     {"steps_pivoted", "integer", "", "Steps in which the contact law needed pivoting",
      [](const WheelEnd& e) -> Json { return e.f.pivoted; }},
-    {"steps_not_converged", "integer", "", "Steps that missed the contact law by more than 1e-9",
+    {"steps_not_converged", "integer", "",
+     "Steps that missed the contact law by more than 1e-9, or whose brake no try held",
      [](const WheelEnd& e) -> Json { return e.f.not_converged; }},
 };
 constexpr JsonMember<WheelEnd> wheel_end_rows[] = {
@@ -60,19 +63,45 @@ constexpr JsonMember<WheelEnd> wheel_end_rows[] = {
      [] { return texts_of(effort_rows); }},
 };
 
+constexpr JsonMember<WheelEstimate> wheel_estimate_rows[] = {
+    {"force_x", "number", "",
+     "Larger change of the mean F_x by half the step or twice the modes, over the mean F_y",
+     [](const WheelEstimate& e) -> Json { return e.larger().x; }},
+    {"force_y", "number", "", "Likewise of the mean F_y, over itself",
+     [](const WheelEstimate& e) -> Json { return e.larger().y; }},
+    {"force_x_of_itself", "number or null", "", "Likewise of the mean F_x, over itself",
+     [](const WheelEstimate& e) { return known(e.larger().x_of_itself); }},
+    {"friction_power", "number or null", "",
+     "Likewise of the mean power taken by friction, over itself",
+     [](const WheelEstimate& e) { return known(e.larger().friction_power); }},
+    {"force_x_by_step", "number", "", "Change of the mean F_x by half the step, over the mean F_y",
+     [](const WheelEstimate& e) -> Json { return e.step.x; }},
+    {"force_x_by_modes", "number", "", "By twice the modes",
+     [](const WheelEstimate& e) -> Json { return e.modes.x; }},
+};
+constexpr JsonMember<WheelEstimate> wheel_estimate_member[] = {
+    {"wheel_estimate", "object", "",
+     "Of a reduced wheel made of the case, with --estimate: changes of means over the last quarter",
+     [](const WheelEstimate& e) {
+       return e.none.empty() ? object_of(wheel_estimate_rows, e) : absent();
+     },
+     [] { return texts_of(wheel_estimate_rows); }},
+    {"wheel_estimate_missing", "string", "", "Reason why there is no estimate",
+     [](const WheelEstimate& e) { return e.none.empty() ? absent() : Json(e.none); }},
+};
+
 /// The loop, the files and the figures are those of motion in time; the steps are those of the
 /// reduced wheel.
 class WheelAnalysis final : public DynamicAnalysis {
  public:
-  WheelAnalysis(const Case& c, const RunOptions& options) : DynamicAnalysis(c, options), case_(c) {
-    prepare_wheel(c, options, false, own_setup(), wheel_);
+  WheelAnalysis(const Case& c, const RunOptions& options)
+      : DynamicAnalysis(c, options), case_(c), options_(options) {
+    prepare_wheel(c, options, {}, own_setup(), wheel_);
     plan_snapshots();
   }
 
   [[nodiscard]] CheckReport check(double trial) override {
     CheckReport r = DynamicAnalysis::check(trial);
-    for (auto& [name, text] : r.lines)
-      if (name == "integrator") text = "reduced wheel with exact contact";
     const double dt = setup().model.dt;
     r.lines.emplace_back("modes",
                          fmt::format("{}, up to {:.5g} rad/s", wheel_.n_modes(), wheel_.highest()));
@@ -98,11 +127,7 @@ class WheelAnalysis final : public DynamicAnalysis {
   }
   void close() override {
     DynamicAnalysis::close();
-    if (wheel_.figures.spin_max > wheel_.known_spin)
-      warn(
-          fmt::format("the spin of the rim reached {:.5g} rad/s, and what no mode has is known up "
-                      "to {:.5g} rad/s: beyond it is extrapolated",
-                      wheel_.figures.spin_max, wheel_.known_spin));
+    warn_of_spin();
   }
   void take_tables() override {
     refuse_spin();
@@ -115,12 +140,21 @@ class WheelAnalysis final : public DynamicAnalysis {
   void summarise(Json& json, RunReport& report) const override {
     DynamicAnalysis::summarise(json, report);
     add_members(wheel_end_rows, {wheel_.figures, report.simulated_s}, json);
+    if (options_.reduced_estimate && report.status == RunStatus::done) {
+      const WheelEstimate estimate =
+          estimate_wheel(case_, options_, setup().model.dt, wheel_.n_modes());
+      add_members(wheel_estimate_member, estimate, json);
+      report.notes.push_back("error estimate: " + in_words(estimate));
+    }
     report.step_wall_s = wheel_.figures.wall_s;
     report.slowest_step = wheel_.figures.slowest_step_s / setup().model.dt;
   }
 
  protected:
   [[nodiscard]] bool guards_impacts() const noexcept override { return false; }
+  [[nodiscard]] std::string told_integrator() const override {
+    return "reduced wheel with exact contact";
+  }
   [[nodiscard]] std::unique_ptr<dynamics::Integrator> make_integrator(
       dynamics::State& start) override {
     return std::make_unique<rom::WheelRun>(setup().model, *wheel_.ring, wheel_.model,
@@ -128,6 +162,22 @@ class WheelAnalysis final : public DynamicAnalysis {
   }
 
  private:
+  /// A rim that moves by itself may have come to turn faster than what was chosen for it.
+  void warn_of_spin() {
+    const double spin = wheel_.figures.spin_max, dt = setup().model.dt;
+    if (spin > wheel_.known_spin * (1.0 + 1e-9) && wheel_.known_spin > 0.0)
+      warn(
+          fmt::format("the spin of the rim reached {:.5g} rad/s, and what no mode has is known up "
+                      "to {:.5g} rad/s: beyond it is extrapolated",
+                      spin, wheel_.known_spin));
+    const double passes = 2.0 * std::numbers::pi / setup().mesh.n_sectors / (spin * dt);
+    const bool was_told = wheel_.expected.pass > 0.0 && wheel_.passes(dt) < 1.5;
+    if (passes < 1.5 && !was_told)
+      warn(fmt::format(
+          "the spin of the rim reached {:.5g} rad/s, {:.2g} steps in the pass of a "
+          "sector: forces of fewer than 1.5 swing; a --reduced-step of at most {:.2g} s",
+          spin, passes, passes * dt / 1.618));
+  }
   /// The residual is known for the spins of the case at the start.
   void refuse_spin() const {
     const double known = wheel_.expected.spin;
@@ -148,6 +198,7 @@ class WheelAnalysis final : public DynamicAnalysis {
   }
 
   const Case& case_;
+  const RunOptions& options_;
   PreparedWheel wheel_;
 };
 
@@ -161,7 +212,7 @@ std::unique_ptr<Analysis> make_wheel(const Case& c, const RunOptions& options) {
 }
 
 std::vector<MemberText> wheel_members() {
-  return joined({texts_of(wheel_rows), texts_of(wheel_end_rows)});
+  return joined({texts_of(wheel_rows), texts_of(wheel_end_rows), texts_of(wheel_estimate_member)});
 }
 
 }  // namespace rondo::study

@@ -86,8 +86,11 @@ class RingWheel {
 
   /// Starts from the stationary spin, at angle_next and center_next.
   void start(const WheelMotion& motion);
-  /// Starts from fields of all nodes in the co-rotating frame, (n) each; only their modes remain.
+  /// Starts from fields of all nodes in the co-rotating frame, (n) each: of these their modes, and
+  /// the forces that hold contact nodes which touch the ground.
   void start(const WheelMotion& motion, std::span<const Vec2> u, std::span<const Vec2> v);
+  /// Force of the ground at the start, and its torque about the center [N/m], [N]
+  [[nodiscard]] RimVector force_at_start() const;
   /// Allocates nothing unless the spin changes or the law of contact needs pivoting.
   [[nodiscard]] WheelReport step(const WheelMotion& motion);
   /// The same on a rim that moves freely. Adds the works of the rim, the scheme's among them.
@@ -177,7 +180,12 @@ class RingWheel {
   [[nodiscard]] WheelRim::End end_of(const WheelReport& report, double ahead) const;
   void turn_modes(double angle);
   void begin(const WheelMotion& motion);
-  void look_at_start(const WheelMotion& motion);
+  void look_at_start(const WheelMotion& motion, std::span<const Vec2> u);
+  void press_at_start(const WheelMotion& motion, std::span<const Vec2> u);
+  [[nodiscard]] std::vector<std::size_t> touching(const WheelMotion& motion,
+                                                  std::span<const Vec2> u);
+  [[nodiscard]] Eigen::VectorXd forces_that_hold(std::span<const std::size_t> nodes) const;
+  void push_modes(const Near& near, Vec2 own);
   void project(double angle, std::span<const Vec2> field, bool velocity);
   void set_table(double spin);
   void fill_compliance();

@@ -220,6 +220,21 @@ void RingWheel::solve(const WheelMotion& m, double friction, WheelReport& report
   }
 }
 
+/// Adds φ_cᴴ of a force in the frame of its sector to the forces on the modes.
+void RingWheel::push_modes(const Near& near, Vec2 own) {
+  const Index row = Index{2} * (near.node % n_contact_);
+  const Vec2 part = own / static_cast<double>(ring_.n_sectors());
+  for_waves(harmonics_, near.wave, [&](std::size_t h, Complex wave) {
+    const Matrix& shape = harmonics_[h].contact;
+    for (Index j = 0; j < shape.cols(); ++j) {
+      const std::complex<double> x = shape(row, j) * part.x + shape(row + 1, j) * part.y;
+      // conj(e^{ikψ} x)
+      modes_[h].force[j] +=
+          Complexes(real_product(wave, x), -(wave.re * x.imag() + wave.im * x.real()));
+    }
+  });
+}
+
 /// Forces of the ground, and what they do to the modes and to the residual.
 void RingWheel::take_forces(WheelReport& report) {
   const double lag = settings_.stiffness_damping / settings_.dt;
@@ -245,17 +260,7 @@ void RingWheel::take_forces(WheelReport& report) {
     if (memory.filtered == Vec2{} && memory.filtered_before == Vec2{})
       active_.insert(std::ranges::lower_bound(active_, near.node), near.node);
     memory.filtered += 1.0 / (1.0 + lag) * own;
-    const Index row = Index{2} * (near.node % n_contact_);
-    const Vec2 part = own / static_cast<double>(ring_.n_sectors());
-    for_waves(harmonics_, near.wave, [&](std::size_t h, Complex wave) {
-      const Matrix& shape = harmonics_[h].contact;
-      for (Index j = 0; j < shape.cols(); ++j) {
-        const std::complex<double> x = shape(row, j) * part.x + shape(row + 1, j) * part.y;
-        // conj(e^{ikψ} x)
-        modes_[h].force[j] +=
-            Complexes(real_product(wave, x), -(wave.re * x.imag() + wave.im * x.real()));
-      }
-    });
+    push_modes(near, own);
   }
   for (Modes& s : modes_) s.state.noalias() += settings_.theta * (s.push * s.force);
   report.contacts = contacts_;

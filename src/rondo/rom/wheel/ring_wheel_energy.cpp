@@ -115,6 +115,7 @@ void RingWheel::account(const WheelMotion& m, WheelReport& report) {
 WheelEnergy RingWheel::energy_at_start(bool softened) const {
   WheelEnergy e;
   const double by_spin = softened ? spin_ * spin_ : 0.0;
+  e.residual = 0.5 * products(table_).end;
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     const Eigen::VectorXd& squares = harmonics_[h].squares;
     const double n = 0.5 * harmonics_[h].weight() * ring_.n_sectors();

@@ -2,6 +2,9 @@
 /// Fields of all nodes: the start of a run from them, and those after a step.
 #include "rondo/rom/wheel/ring_wheel.hpp"
 
+#include <Eigen/LU>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 #include "rondo/core/index.hpp"
@@ -11,6 +14,8 @@ namespace rondo::rom {
 namespace {
 
 using Eigen::Index;
+
+constexpr double touching_share = 1e-6;  ///< of the radius: nodes that near touch at the start
 
 }  // namespace
 
@@ -28,7 +33,7 @@ void RingWheel::begin(const WheelMotion& m) {
 }
 
 /// Places of the nodes near the ground at the start.
-void RingWheel::look_at_start(const WheelMotion& m) {
+void RingWheel::look_at_start(const WheelMotion& m, std::span<const Vec2> u) {
   for (std::size_t h = 0; h < modes_.size(); ++h)
     modes_[h].contact.noalias() =
         harmonics_[h].contact * modes_[h].state.head(harmonics_[h].squares.size());
@@ -36,7 +41,90 @@ void RingWheel::look_at_start(const WheelMotion& m) {
   solved_.clear();
   contacts_.clear();
   law_.clear();
+  if (!u.empty()) press_at_start(m, u);
   remember(m);
+}
+
+/// Near nodes that the field has on the ground; they get its places.
+std::vector<std::size_t> RingWheel::touching(const WheelMotion& m, std::span<const Vec2> u) {
+  std::vector<std::size_t> nodes;
+  const Complex rotation = turned_by(m.angle_next);
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    Near& near = near_[i];
+    const std::size_t row = at(ring_.contact[at(near.node % n_contact_)]);
+    const Vec2 place =
+        near.turn * arm(near.node) + rotation * u[ring_.stiffness.node(row, at(sector(near.node)))];
+    if (ground_.facet_near(m.center_next + place).gap > touching_share * model_.radius) continue;
+    near.place = place;
+    nodes.push_back(i);
+  }
+  return nodes;
+}
+
+/// (2m) Forces in the frames of the sectors under which the residual has these nodes where they
+/// are.
+Eigen::VectorXd RingWheel::forces_that_hold(std::span<const std::size_t> nodes) const {
+  const auto n = static_cast<Index>(2 * nodes.size());
+  Eigen::MatrixXd g(n, n);
+  Eigen::VectorXd moved(n);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const Near& near = near_[nodes[i]];
+    const Vec2 by = conj(near.turn) * (near.place - near.free);
+    const auto row = static_cast<Index>(2 * i);
+    moved.segment<2>(row) << by.x, by.y;
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      const Block b = answer(table_.blocks.data(), near.node, near_[nodes[j]].node);
+      g.block<2, 2>(row, static_cast<Index>(2 * j)) << b[0], b[1], b[2], b[3];
+    }
+  }
+  return g.partialPivLu().solve(moved);
+}
+
+/// Forces of the ground at the start, of nodes that it presses.
+void RingWheel::press_at_start(const WheelMotion& m, std::span<const Vec2> u) {
+  std::vector<std::size_t> nodes = touching(m, u);
+  Eigen::VectorXd forces;
+  const auto own = [&](std::size_t i) {
+    const auto row = static_cast<Index>(2 * i);
+    return Vec2{forces[row], forces[row + 1]};
+  };
+  for (std::size_t left = nodes.size() + 1; nodes.size() < left && !nodes.empty();) {
+    left = nodes.size();
+    forces = forces_that_hold(nodes);
+    std::vector<std::size_t> pressed;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const Near& near = near_[nodes[i]];
+      const Vec2 normal = ground_.facet_near(m.center_next + near.place).normal;
+      if (dot(normal, near.turn * own(i)) > 0.0) pressed.push_back(nodes[i]);
+    }
+    nodes = std::move(pressed);
+  }
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    Near& near = near_[nodes[i]];
+    near.own = own(i);
+    memory_of(near.node).filtered = memory_of(near.node).filtered_before = near.own;
+    active_.push_back(near.node);
+    push_modes(near, near.own);
+    const Vec2 normal = ground_.facet_near(m.center_next + near.place).normal,
+               force = near.turn * near.own;
+    const double most = settings_.friction * dot(normal, force),
+                 shear = dot(tangent_of(normal), force);
+    solved_.push_back(nodes[i]);
+    law_.emplace_back();
+    law_.back().status =
+        std::abs(shear) < 0.999 * most ? contact::Status::stick : contact::Status::slip;
+    if (law_.back().status == contact::Status::slip && most > 0.0)
+      law_.back().side = -std::copysign(1.0, shear);
+  }
+}
+
+RimVector RingWheel::force_at_start() const {
+  RimVector sum = RimVector::Zero();
+  for (const Near& near : near_) {
+    const Vec2 force = near.turn * near.own;
+    sum += RimVector(force.x, force.y, cross(near.place, force));
+  }
+  return sum;
 }
 
 void RingWheel::start(const WheelMotion& m) {
@@ -46,14 +134,14 @@ void RingWheel::start(const WheelMotion& m) {
       for (Index j = 0; j < harmonics_[h].squares.size(); ++j)
         modes_[h].state[j] = m.spin_next * m.spin_next * harmonics_[h].reference[j] /
                              (harmonics_[h].squares[j] - m.spin_next * m.spin_next);
-  look_at_start(m);
+  look_at_start(m, {});
 }
 
 void RingWheel::start(const WheelMotion& m, std::span<const Vec2> u, std::span<const Vec2> v) {
   begin(m);
   project(m.angle_next, u, false);
   project(m.angle_next, v, true);
-  look_at_start(m);
+  look_at_start(m, u);
 }
 
 /// φᴴ M of a field, harmonic by harmonic.

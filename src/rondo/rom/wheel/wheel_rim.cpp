@@ -2,6 +2,7 @@
 #include "rondo/rom/wheel/wheel_rim.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
@@ -76,8 +77,9 @@ RimVector WheelRim::momentum_of(const RimVector& v, const WheelSums& sums) const
   return RimVector(mass_ * v[0], mass_ * v[1], inertia_ * v[2]) + sums.of(v[2]);
 }
 
-void WheelRim::start(const WheelSums& sums) {
+void WheelRim::start(const WheelSums& sums, const RimVector& force) {
   sums_ = sums;
+  force_ = force;
   momentum_ = actual_ = momentum_of(now_, sums_);
 }
 
@@ -282,6 +284,7 @@ void WheelRim::finish(const End& end, dynamics::Works& works) {
   const Vec2 table = model_.motion.center(t + dt).plane();
   center_ = {rim_.free_x || led_ ? x_.value() : table.x,
              rim_.free_y || led_ ? y_.value() : table.y};
+  most_spin_ = std::max(most_spin_, std::abs(end_[2]));
   rate_ = brake_ == Brake::locks ? 0.0 : change[2] / dt;
   now_ = end_;
   sums_ = end.sums;
@@ -296,6 +299,7 @@ void WheelRim::set_frame(double turn, Vec2 way) {
   frame_.spin = now_[2];
   frame_.angle = angle_.value();
   frame_.turn_before = turn;
+  frame_.turn = model_.dt * now_[2];
   frame_.rotation = rotation(frame_.angle);
   frame_.center = center_;
   frame_.advance_before = way;
@@ -325,6 +329,7 @@ std::vector<double> WheelRim::save() const {
                           frame_.advance_before.y};
   for (const RimVector* v : {&now_, &force_, &momentum_, &error_})
     out.insert(out.end(), v->begin(), v->end());
+  out.push_back(most_spin_);
   return out;
 }
 
@@ -341,6 +346,7 @@ void WheelRim::restore(long long n, std::span<const double> a) {
   std::size_t i = 20;
   for (RimVector* v : {&now_, &force_, &momentum_, &error_})
     for (double& x : *v) x = a[i++];
+  most_spin_ = a[i];
   end_ = now_;
   actual_ = momentum_of(now_, sums_);
   set_frame(a[17], {a[18], a[19]});

@@ -66,7 +66,8 @@ class WheelRim {
   /// The rim at t = 0 as a step that ends there.
   [[nodiscard]] WheelMotion at_start() const;
   /// @param sums of the deformation at t = 0
-  void start(const WheelSums& sums);
+  /// @param force of the ground then, and its torque about the center [N/m], [N]
+  void start(const WheelSums& sums, const RimVector& force);
   /// Step n + 1: its motion as far as it is known before its forces.
   [[nodiscard]] WheelMotion begin(long long n);
   /// The balances of momentum of the step.
@@ -100,15 +101,14 @@ class WheelRim {
 
   [[nodiscard]] const dynamics::FrameStep& frame() const noexcept { return frame_; }
   [[nodiscard]] const dynamics::RimReport& report() const noexcept { return report_; }
-  /// s at the end of the last step [rad/s]
-  [[nodiscard]] double spin() const noexcept { return now_[2]; }
-  [[nodiscard]] Vec2 center() const noexcept { return center_; }
+  /// Largest |s| so far [rad/s]
+  [[nodiscard]] double most_spin() const noexcept { return most_spin_; }
 
   /// Mass and inertia of rim and body, undeformed                            [kg/m], [kg·m]
   [[nodiscard]] double whole_mass() const noexcept { return mass_; }
   [[nodiscard]] double whole_inertia() const noexcept { return inertia_; }
 
-  static constexpr std::size_t n_numbers = 32;
+  static constexpr std::size_t n_numbers = 33;
   /// The numbers from which another rim of this model resumes bit for bit.
   [[nodiscard]] std::vector<double> save() const;
   /// @param n number of steps made @pre n_numbers
@@ -136,6 +136,7 @@ class WheelRim {
   RimVector now_, end_;           ///< velocities at both ends of the step
   std::optional<RimVector> led_;  ///< argument of lead()
   double kept_spin_ = 0.0;
+  double most_spin_ = 0.0;
   double rate_ = 0.0;   ///< θ̈ of the last step                                      [rad/s²]
   RimVector force_;     ///< of the ground at t_n, and its torque
   RimVector momentum_;  ///< that the balances have given so far; where held, that of the state

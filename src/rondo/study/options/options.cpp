@@ -58,6 +58,12 @@ Options run_options(RunOptions& r) {
        .help =
            "Number of modes of a reduced wheel made of the case; chosen by its step if left out",
        .needs = reduced_run},
+      {.words = "--estimate",
+       .python = "estimate",
+       .target = &r.reduced_estimate,
+       .help = "Runs a reduced wheel made of the case again, with half the step and with twice the "
+               "modes, and tells how far its mean forces differ",
+       .needs = reduced_run},
       {.words = "--step-factor",
        .python = "step_factor",
        .target = &r.step_factor,

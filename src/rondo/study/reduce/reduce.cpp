@@ -15,7 +15,6 @@
 #include "rondo/analysis/reduced/reduced_file.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/process_wide.hpp"
-#include "rondo/io/csv.hpp"
 #include "rondo/rom/step_matrices.hpp"
 #include "rondo/study/pod/pod_input.hpp"
 #include "rondo/study/reduce/reduce_error.hpp"

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  How far off the forces of a reduced wheel may be, without a full run (docs/reduced.md,
+/// 0): the wheel is run again with half the step, and with twice the modes.
+#pragma once
+#include <string>
+
+#include "rondo/analysis/error_estimate.hpp"
+#include "rondo/case/case.hpp"
+#include "rondo/output/run_options.hpp"
+
+namespace rondo::study {
+
+struct WheelEstimate {
+  std::string none;  ///< why there is none; empty: there is one
+  /// Differences of the means over the last quarter: run minus other run, with half the step and
+  /// with twice the modes.
+  ForceErrors step, modes;
+
+  /// The larger of each; NaN where neither run has one.
+  [[nodiscard]] ForceErrors larger() const noexcept;
+};
+
+/// @param options of the run, whose step and number of modes are as given
+/// @param step [s] and n_modes of the run
+[[nodiscard]] WheelEstimate estimate_wheel(const Case& c, const RunOptions& options, double step,
+                                           int n_modes);
+
+std::string in_words(const WheelEstimate& estimate);
+
+}  // namespace rondo::study
