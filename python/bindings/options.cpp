@@ -67,7 +67,9 @@ void take_options(const py::dict& given, const study::Options& options) {
       throw request_error(name, found, std::string(other.message), std::string(other.allowed));
     };
     if (o.excludes && is_given(o) && has(options, o.excludes->python)) refuse(*o.excludes, "");
-    if (o.needs && !has(options, o.needs->python)) refuse(*o.needs, py::str(given[name.c_str()]));
+    const bool is_off = std::holds_alternative<bool*>(o.target) && !is_given(o);
+    if (o.needs && !is_off && !has(options, o.needs->python))
+      refuse(*o.needs, py::str(given[name.c_str()]));
   }
 }
 

@@ -55,6 +55,6 @@ OPTIONS: dict[str, dict[str, tuple[str, str]]] = {
     },
     "fmu": {
         "modes": ("int | None = None", "Number of modes; if left out, chosen as for rondo run --reduced"),
-        "reduced_step": ("float | None = None", "Largest internal step [s]; if left out, chosen likewise"),
+        "reduced_step": ("float | None = None", "Largest internal step [s]; if left out, chosen as for rondo run --reduced"),
     },
 }

@@ -592,16 +592,16 @@ class Wrong(FmuTest):
         self.rolls_as_its_own_run(case, True)
 
     def test_a_steady_start(self):
-        """The height comes from the importer, not from the table of the case."""
         self.rolls_as_its_own_run(ROOT / "cases" / "rolling-flat.toml", False,
-                                  ["initial.state=steady-rolling"], hub_height_start=0.29)
+                                  ["initial.state=steady-rolling", "motion.height=0.29"],
+                                  hub_height_start=0.29)
         fmu = Fmu(self.folder / "rolling-flat")
         self.addCleanup(fmu.free)
         with self.assertRaisesRegex(RuntimeError, "does not roll steadily"):
             fmu.begin(hub_height_start=0.29, hub_velocity_x=0.0, hub_angular_velocity=0.0)
 
     def test_shipped_cases_have_a_step(self):
-        for name in ("wheel-rolling", "wheel-landing", "pothole-load"):
+        for name in ("wheel-rolling", "wheel-landing", "pothole-load", "rolling-flat"):
             done = made("fmu", ROOT / "cases" / f"{name}.toml", "-o", self.folder / "it.fmu", "--json")
             self.assertGreater(json.loads(done.stdout)["result"]["step"], 1e-4, name)
 

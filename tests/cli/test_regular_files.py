@@ -95,7 +95,6 @@ class Fifos(ProgramTest):
         path = self.fifo(self.folder / "model.h5")
         self.refuses(4, path, "FIFO, not a regular file", "run", self.case(TEXT), "-o", self.out,
                      "--reduced", path)
-        self.refuses(4, path, "FIFO, not a regular file", "fmu", path, "-o", self.folder / "a.fmu")
 
     def test_sweeps_and_shards(self):
         self.case(TEXT)

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  How far off a reduced model may be (docs/reduced.md, 8b).
 #pragma once
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
-
-#include "rondo/case/schema/members.hpp"
 
 namespace rondo::study {
 
@@ -18,11 +15,6 @@ struct ForceErrors {
   double x_of_itself = std::numeric_limits<double>::quiet_NaN();
   double friction_power = std::numeric_limits<double>::quiet_NaN();
 };
-
-/// Null where there is next to none of what the error is of.
-inline Json known(double error) {
-  return std::isnan(error) ? Json() : Json(error);
-}
 
 /// A mean F_x that is a smaller share of F_y is a difference of larger forces: no error is told by
 /// it.

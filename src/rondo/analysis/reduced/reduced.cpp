@@ -10,6 +10,7 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/dynamic.hpp"
+#include "rondo/analysis/reduced/known_error.hpp"
 #include "rondo/analysis/reduced/prepare.hpp"
 #include "rondo/case/case_source.hpp"
 

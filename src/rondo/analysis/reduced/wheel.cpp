@@ -10,6 +10,7 @@
 
 #include "rondo/analysis/dynamic.hpp"
 #include "rondo/analysis/reduced/estimate_wheel.hpp"
+#include "rondo/analysis/reduced/known_error.hpp"
 #include "rondo/analysis/reduced/prepare_wheel.hpp"
 #include "rondo/case/case_source.hpp"
 

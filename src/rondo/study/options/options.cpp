@@ -203,7 +203,7 @@ Options fmu_options(FmuRequest& r) {
       {.words = "--reduced-step",
        .python = "reduced_step",
        .target = &r.step,
-       .help = "Largest internal step; if left out, chosen likewise",
+       .help = "Largest internal step; if left out, chosen as for rondo run --reduced",
        .unit = "s"},
   };
 }
