@@ -75,7 +75,8 @@ constexpr std::array history{
     Column<H>{
         "work_scheme", "J/m",
         "created by the scheme `as-printed`; with a `[rim]` what the central differences of a "
-        "turning body leave, of third order in a step; of a reduced wheel what the distances of its "
+        "turning body leave, of third order in a step; of a reduced wheel what the distances of "
+        "its "
         "law differ from the work of the forces; else 0",
         [](const H& r) { return r.balance.works.scheme; }},
     Column<H>{"energy_residual", "J/m", "energy less all works: what the energy balance leaves",
