@@ -98,7 +98,8 @@ class Rim(WheelTest):
         self.assertIn("steps in the pass of a sector", done.stderr)
         _, done = self.wheel("--set", "rim.torque=[[0, 2e5]]", "--overwrite", code=3,
                              case=shipped("wheel-driven", end=0.3))
-        self.assertIn("turn", done.stderr)
+        self.assertIn("more than 0.3: differences of positions", done.stderr)
+        self.assertIn("--reduced-step of a reduced wheel", done.stderr)
 
     def test_a_steady_start_is_one(self):
         """On a rim that is held, and on one whose load is that of the steady state."""

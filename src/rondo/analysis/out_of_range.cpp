@@ -163,8 +163,8 @@ std::string turned_too_far(double turn, double dt) {
   if (std::abs(turn) <= dynamics::most_turn) return {};
   return fmt::format(
       "the rim turns by {:.3g} rad in a step of {:.3g} s, more than {:.3g}: differences of "
-      "positions no longer show its spin; smaller steps (time.step; --step-factor of a reduced "
-      "run), or loads and a torque that spin it up less",
+      "positions no longer show its spin; smaller steps (time.step; --reduced-step of a reduced "
+      "wheel), or loads and a torque that spin it up less",
       turn, dt, dynamics::most_turn);
 }
 

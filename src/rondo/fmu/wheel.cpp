@@ -291,7 +291,7 @@ void Wheel::warn(std::string text) {
 }
 
 void Wheel::warn_of_spin(const Values& v) {
-  const double known = body_->wheel.known_spin, spin = std::abs(v.hub_angular_velocity);
+  const double known = body_->wheel.model.largest_spin, spin = std::abs(v.hub_angular_velocity);
   if (spin > known && said_.insert("spin").second)
     warnings_.push_back(
         fmt::format("hub_angular_velocity = {:.5g} rad/s: what no mode has is known up to {:.5g} "

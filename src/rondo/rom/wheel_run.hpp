@@ -49,7 +49,7 @@ class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
   [[nodiscard]] static bool is_saved(const dynamics::Model& model, const Ring& ring,
                                      const WheelModel& wheel,
                                      std::span<const double> numbers) noexcept;
-  /// Of a rim that moves: WheelRim::lead().
+  /// Calls WheelRim::lead(). @pre the model has a rim
   void lead(const RimVector& end) noexcept { rim_->lead(end); }
   [[nodiscard]] const WheelRim* rim() const noexcept { return rim_ ? &*rim_ : nullptr; }
 

@@ -62,7 +62,7 @@ class Steps {
     wheel_.start(rim_.at_start());
     rim_.start(wheel_.sums(), wheel_.force_at_start());
   }
-  /// Energy of all after the step, and the sum of its works.
+  /// Makes a step and finds the energy of all after it.
   WheelReport step() {
     works_ = {};
     const WheelReport report = wheel_.step(n_++, rim_, works_);
@@ -81,7 +81,7 @@ class Steps {
   [[nodiscard]] double energy() const {
     return energy_.kinetic + energy_.strain + energy_.kinetic_rim + energy_.support;
   }
-  /// Of the rim alone.
+  /// Works that the rim has added in the last step.
   [[nodiscard]] const dynamics::Works& works() const { return works_; }
   [[nodiscard]] const WheelRim& rim() const { return rim_; }
 

@@ -21,8 +21,8 @@ struct FramePlace {
 [[nodiscard]] FramePlace frame_at(const dynamics::Model& model, double time,
                                   const std::string& option);
 
-/// Of all nb candidates, whether they touch the ground or not: each sees the facet that is nearest
-/// to it, as if it went on for ever.
+/// Rows of all nb candidates, also of those that do not touch: each takes the nearest facet of the
+/// ground for an endless plane.
 struct ContactRows {
   /// H (components·nb, unknowns): of candidate k the rows components·k + (0: normal n, 1: tangent
   /// J n, 2: lateral t2), in the co-rotating frame

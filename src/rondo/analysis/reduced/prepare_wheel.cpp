@@ -22,9 +22,9 @@ constexpr double fewest_passes = 1.618;    ///< steps in the pass of a sector
 constexpr double beyond_whole = 0.618;     ///< so that nodes are seen at all their phases
 constexpr double steps_in_contact = 20.0;  ///< while a node passes it
 constexpr int most_modes = 40, most_modes_of_tread = 90, fewest_modes = 10;
-constexpr double highest_mode = 1.5;     ///< ω Δt of the modes that are taken
-constexpr double led_speed = 60.0;       ///< to which a wheel may be led from outside      [m/s]
-constexpr double beyond_expected = 2.0;  ///< of the spin that is expected of a free one: known
+constexpr double highest_mode = 1.5;      ///< ω Δt of the modes that are taken
+constexpr double speed_from_rest = 60.0;  ///< that a wheel from rest may come to         [m/s]
+constexpr double beyond_expected = 2.0;   ///< of the spin that is expected of a free one: known
 
 double radius_of(const Setup& setup) {
   double radius = 0.0;
@@ -79,7 +79,7 @@ rom::KnownSpins spins_of(const Case& c, std::optional<double> led, double expect
   if (led) return {0.0, *led, true};
   const bool free = c.rim && c.rim->free_spin;
   if (!free) return {expected, expected, c.motion.angular_velocity.points().size() > 1};
-  return {expected, expected > 0.0 ? beyond_expected * expected : led_speed / radius, true};
+  return {expected, expected > 0.0 ? beyond_expected * expected : speed_from_rest / radius, true};
 }
 
 rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
@@ -186,7 +186,6 @@ void prepare_wheel(const Case& c, const RunOptions& options, std::optional<doubl
   wheel.ring.emplace(rom::ring_of(setup.model));
   wheel.model = rom::make_wheel_model(*wheel.ring, modes_of(options, setup),
                                       spins_of(c, led, wheel.expected.spin, radius_of(setup)));
-  wheel.known_spin = wheel.model.largest_spin;
   setup.reduced = fmt::format("a reduced wheel of {} modes with a step of {:.17g} s",
                               wheel.n_modes(), setup.model.dt);
   setup.saved_numbers = rom::WheelRun::n_numbers(setup.model, *wheel.ring, wheel.model);

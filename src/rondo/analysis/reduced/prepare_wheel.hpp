@@ -25,7 +25,6 @@ struct PreparedWheel {
   std::optional<rom::Ring> ring;  ///< of the setup's sector
   rom::WheelModel model;
   ExpectedContact expected;
-  double known_spin = 0.0;    ///< up to which the residual is known                      [rad/s]
   double full_step = 0.0;     ///< step of the full run                                       [s]
   rom::WheelFigures figures;  ///< filled while it runs
   std::vector<std::string> warnings;  ///< for the user

@@ -166,11 +166,11 @@ class WheelAnalysis final : public DynamicAnalysis {
   /// A rim that moves by itself may have come to turn faster than what was chosen for it.
   void warn_of_spin() {
     const double spin = wheel_.figures.spin_max, dt = setup().model.dt;
-    if (spin > wheel_.known_spin * (1.0 + 1e-9) && wheel_.known_spin > 0.0)
+    if (spin > wheel_.model.largest_spin * (1.0 + 1e-9))
       warn(
           fmt::format("the spin of the rim reached {:.5g} rad/s, and what no mode has is known up "
                       "to {:.5g} rad/s: beyond it is extrapolated",
-                      spin, wheel_.known_spin));
+                      spin, wheel_.model.largest_spin));
     const double passes = 2.0 * std::numbers::pi / setup().mesh.n_sectors / (spin * dt);
     const bool was_told = wheel_.expected.pass > 0.0 && wheel_.passes(dt) < 1.5;
     if (passes < 1.5 && !was_told)

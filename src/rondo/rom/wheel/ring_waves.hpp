@@ -2,7 +2,6 @@
 /// @file  Waves e^{ikψ} of the harmonics of a ring, and small vectors, as the parts of RingWheel
 /// need them.
 #pragma once
-#include <cmath>
 #include <complex>
 #include <span>
 
@@ -10,12 +9,9 @@
 
 namespace rondo::rom {
 
-inline Complex turned_by(double angle) noexcept {
-  return {std::cos(angle), std::sin(angle)};
-}
 /// The normal turned by -90°.
-inline Vec2 tangent_of(Vec2 normal) noexcept {
-  return {normal.y, -normal.x};
+constexpr Vec2 tangent_of(Vec2 normal) noexcept {
+  return -turn90(normal);
 }
 
 /// Re(a b).

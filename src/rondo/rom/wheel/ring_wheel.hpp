@@ -93,7 +93,8 @@ class RingWheel {
   [[nodiscard]] RimVector force_at_start() const;
   /// Allocates nothing unless the spin changes or the law of contact needs pivoting.
   [[nodiscard]] WheelReport step(const WheelMotion& motion);
-  /// The same on a rim that moves freely. Adds the works of the rim, the scheme's among them.
+  /// Makes a step on a rim that moves by itself, and adds its works, with that of the scheme. It
+  /// allocates where the spin has left that of the matrices.
   /// @param n number of steps made
   [[nodiscard]] WheelReport step(long long n, WheelRim& rim, dynamics::Works& works);
   /// What the deformation holds of the momentum of the whole, after the last step.

@@ -58,9 +58,9 @@ Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
 void RingWheel::find_near(const WheelMotion& m, double filter) {
   near_.clear();
   const double limit = ground_.top() + near_share * model_.radius - m.center_next.y;
-  const Complex rotation = turned_by(m.angle_next), waves = turned_by(waves_at(m));
+  const Complex frame = rotation(m.angle_next), waves = rotation(waves_at(m));
   for (int j = 0; j < ring_.n_sectors(); ++j) {
-    const Complex turn = rotation * ring_.stiffness.turn[at(j)];
+    const Complex turn = frame * ring_.stiffness.turn[at(j)];
     for (int c = 0; c < n_contact_; ++c) {
       const int node = j * n_contact_ + c;
       if ((turn * arm(node)).y > limit && memory_of(node).status == Status::open) continue;
@@ -80,7 +80,7 @@ Vec2 RingWheel::distance(const Near& near, const WheelMotion& m) const {
   const Memory& was = memory_of(near.node);
   const Vec2 way = m.center_next - m.center;
   if (was.known == 0)  // it comes into sight: as if it only turned
-    return way + near.free - conj(turned_by(m.angle_next - m.angle)) * near.free;
+    return way + near.free - conj(rotation(m.angle_next - m.angle)) * near.free;
   const Vec2 x = was.place[0];
   if (was.known < 2) return way + near.free - x;
   if (settings_.slip == SlipRule::bdf2)

@@ -33,13 +33,13 @@ RingWheel::Products RingWheel::products(const RingResidual& table) const {
 /// Work of forces of near nodes, in the frames of their sectors, on the mean velocity of the modes,
 /// over Δt. @param angle of the modes
 double RingWheel::work_on_modes(double angle, Vec2 Near::*force) const {
-  const Complex rotation = turned_by(angle);
+  const Complex frame = rotation(angle);
   double power = 0.0;
   for (const Near& near : near_) {
     const Vec2 own = near.*force;
     if (own == Vec2{}) continue;
     const Index c = Index{2} * (near.node % n_contact_);
-    for_waves(harmonics_, rotation * ring_.stiffness.turn[at(sector(near.node))],
+    for_waves(harmonics_, frame * ring_.stiffness.turn[at(sector(near.node))],
               [&](std::size_t h, Complex wave) {
                 const std::complex<double>* rate = modes_[h].middle.data() + c;
                 power += harmonics_[h].weight() * (real_product(wave, rate[0]) * own.x +

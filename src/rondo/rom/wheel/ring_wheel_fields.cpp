@@ -48,12 +48,12 @@ void RingWheel::look_at_start(const WheelMotion& m, std::span<const Vec2> u) {
 /// Near nodes that the field has on the ground; they get its places.
 std::vector<std::size_t> RingWheel::touching(const WheelMotion& m, std::span<const Vec2> u) {
   std::vector<std::size_t> nodes;
-  const Complex rotation = turned_by(m.angle_next);
+  const Complex frame = rotation(m.angle_next);
   for (std::size_t i = 0; i < near_.size(); ++i) {
     Near& near = near_[i];
     const std::size_t row = at(ring_.contact[at(near.node % n_contact_)]);
     const Vec2 place =
-        near.turn * arm(near.node) + rotation * u[ring_.stiffness.node(row, at(sector(near.node)))];
+        near.turn * arm(near.node) + frame * u[ring_.stiffness.node(row, at(sector(near.node)))];
     if (ground_.facet_near(m.center_next + place).gap > touching_share * model_.radius) continue;
     near.place = place;
     nodes.push_back(i);
@@ -146,10 +146,10 @@ void RingWheel::start(const WheelMotion& m, std::span<const Vec2> u, std::span<c
 
 /// φᴴ M of a field, harmonic by harmonic.
 void RingWheel::project(double angle, std::span<const Vec2> field, bool velocity) {
-  const Complex rotation = turned_by(angle);
+  const Complex frame = rotation(angle);
   for (int j = 0; j < ring_.n_sectors(); ++j) {
     const Complex turn = ring_.stiffness.turn[at(j)];
-    for_waves(harmonics_, conj(rotation * turn), [&](std::size_t h, Complex back) {
+    for_waves(harmonics_, conj(frame * turn), [&](std::size_t h, Complex back) {
       const Matrix& shapes = harmonics_[h].shapes;
       const Index r = shapes.cols();
       const Complexes part = Complexes(back.re, back.im) / static_cast<double>(ring_.n_sectors());
@@ -194,13 +194,13 @@ void RingWheel::write_field(Rows rows, double angle, const Eigen::VectorXd& cons
   for (std::size_t h = 0; h < modes_.size(); ++h)
     amplitudes.emplace_back(harmonics_[h].weight() *
                             (rows.shapes(harmonics_[h]) * coefficients(h)));
-  const Complex rotation = turned_by(angle);
+  const Complex frame = rotation(angle);
   const int n = ring_.n_sectors();
   for (int j = 0; j < n; ++j) {
     const Complex turn = ring_.stiffness.turn[at(j)];
     for (Index a = 0; a < n_rows; ++a)
       u[a] = constant[static_cast<Index>(2 * rows.row(ring_, a)) + a % 2];
-    for_waves(harmonics_, rotation * turn, [&](std::size_t h, Complex wave) {
+    for_waves(harmonics_, frame * turn, [&](std::size_t h, Complex wave) {
       u += wave.re * amplitudes[h].real() - wave.im * amplitudes[h].imag();
     });
     for (const int node : active_) {

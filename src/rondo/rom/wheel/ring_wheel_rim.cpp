@@ -20,6 +20,14 @@ template <class A, class B>
 double product(const A& a, const B& b) {
   return a.dot(b).real();
 }
+/// Re((J y)ᴴ p) without temporary vectors.
+template <class Y, class P>
+double twisted(const Eigen::MatrixXcd& turn, const Y& y, const P& p) {
+  double sum = 0.0;
+  for (Index i = 0; i < turn.rows(); ++i)
+    for (Index j = 0; j < turn.cols(); ++j) sum += (std::conj(turn(i, j) * y[j]) * p[i]).real();
+  return sum;
+}
 /// conj(lᵀ x): the sum over the sectors that translates with the rim, over N.
 template <class X>
 Complexes along(const RingHarmonic& h, const X& x) {
@@ -36,7 +44,7 @@ WheelSums RingWheel::sums() const {
     const auto y = modes_[h].state.head(r), p = modes_[h].state.tail(r);
     const double n = of.weight() * ring_.n_sectors();
     sum.square += n * y.squaredNorm();
-    sum.swirl += n * product(of.coriolis * y, p);
+    sum.swirl += n * twisted(of.coriolis, y, p);
     if (of.k == 0) {
       sum.swirl += n * product(of.turned, p);
       sum.stretch += n * product(of.reference, y);
@@ -75,8 +83,9 @@ void RingWheel::twist_modes() {
     Modes& s = modes_[h];
     const RingHarmonic& of = harmonics_[h];
     const Index r = of.squares.size();
-    s.work.head(r).noalias() = -of.coriolis * s.before.head(r);
-    if (of.k == 0) s.work.head(r) -= of.turned;
+    s.work.head(r).noalias() = of.coriolis * s.before.head(r);
+    if (of.k == 0) s.work.head(r) += of.turned;
+    s.work.head(r) *= -1.0;
     s.twist.noalias() = s.push * s.work.head(r);
     s.twist_contact.noalias() = of.contact * s.twist.head(r);
   }
@@ -109,10 +118,9 @@ void RingWheel::find_columns(const WheelMotion& m) {
   const double dt = settings_.dt, half = 0.5 * dt * dt, share = dt * settings_.theta;
   for (Near& near : near_) {
     const Index c = Index{2} * (near.node % n_contact_);
-    const auto turned = [&](Vec2 x) { return Vec2{-x.y, x.x}; };
     near.still = near.free;
-    near.moved = {Vec2{half, 0.0}, Vec2{0.0, half}, half * turned(near.free)};
-    near.push = {Vec2{share, 0.0}, Vec2{0.0, share}, share * turned(near.free)};
+    near.moved = {Vec2{half, 0.0}, Vec2{0.0, half}, half * turn90(near.free)};
+    near.push = {Vec2{share, 0.0}, Vec2{0.0, share}, share * turn90(near.free)};
     for_waves(harmonics_, near.wave, [&](std::size_t h, Complex wave) {
       const RingHarmonic& of = harmonics_[h];
       const Modes& s = modes_[h];
@@ -178,25 +186,25 @@ WheelRim::End RingWheel::end_of(const WheelReport& report, double ahead) const {
   end.force = {report.force.x, report.force.y, report.torque};
   end.rim_work = report.energy.rim;
   end.sums = sums();
-  end.sums.momentum = turned_by(ahead) * end.sums.momentum;
-  end.sums.moment = turned_by(ahead) * end.sums.moment;
+  end.sums.momentum = rotation(ahead) * end.sums.momentum;
+  end.sums.moment = rotation(ahead) * end.sums.moment;
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     const RingHarmonic& of = harmonics_[h];
     const Modes& s = modes_[h];
     const Index r = of.squares.size();
     const double n = of.weight() * ring_.n_sectors();
-    const Vector rate = 0.5 * (s.before.tail(r) + s.state.tail(r));
-    end.swirl += n * product(of.coriolis * s.before.head(r), rate);
+    const auto rate = 0.5 * (s.before.tail(r) + s.state.tail(r));
+    end.swirl += n * twisted(of.coriolis, s.before.head(r), rate);
     if (of.k == 0) end.swirl += n * product(of.turned, rate);
     if (of.k == 1) end.middle += static_cast<double>(ring_.n_sectors()) * vec(along(of, rate));
   }
   return end;
 }
 
-/// The same material field, seen from a pattern that stands still in space by another angle.
+/// Turns what the modes refer to by an angle; nodes stay where they are.
 void RingWheel::turn_modes(double angle) {
   for (std::size_t h = 0; h < modes_.size(); ++h) {
-    const Complex back = turned_by(-harmonics_[h].k * angle);
+    const Complex back = rotation(-harmonics_[h].k * angle);
     modes_[h].state *= Complexes(back.re, back.im);
     modes_[h].force *= Complexes(back.re, back.im);
   }
@@ -210,7 +218,7 @@ WheelReport RingWheel::step(long long n, WheelRim& rim, dynamics::Works& works) 
   find_near(m, lag / (1.0 + lag));
   twist_modes();
   WheelAnswer answer{sums(), momenta_by_rate(m.spin_next)};
-  const Complex ahead = turned_by(m.angle_next - waves_at(m));
+  const Complex ahead = rotation(m.angle_next - waves_at(m));
   answer.free.momentum = ahead * answer.free.momentum;
   answer.free.moment = ahead * answer.free.moment;
   rim.set_lines(answer);

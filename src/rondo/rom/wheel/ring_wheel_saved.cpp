@@ -51,7 +51,7 @@ std::size_t RingWheel::n_numbers(const Ring& ring, const WheelModel& model) noex
   return at(n) + numbers_of_node * ring.contact.size() * at(ring.n_sectors());
 }
 
-/// Of the modes every number is one; of nodes some are counts, or names.
+/// Modes take any finite numbers; nodes have counts and statuses among theirs, which are checked.
 bool RingWheel::is_saved(const Ring& ring, const WheelModel& model,
                          std::span<const double> numbers) noexcept {
   if (numbers.size() != n_numbers(ring, model)) return false;

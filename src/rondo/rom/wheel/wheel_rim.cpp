@@ -25,9 +25,6 @@ double mean(const dynamics::Table& table, double from, double length) {
 Vec2 plane(const RimVector& v) noexcept {
   return {v[0], v[1]};
 }
-Vec2 turned(Vec2 x) noexcept {
-  return {-x.y, x.x};
-}
 
 }  // namespace
 
@@ -56,6 +53,11 @@ WheelRim::WheelRim(const dynamics::Model& model, double theta, double largest_sp
 
 bool WheelRim::is_free(Index k) const noexcept {
   return k == 0 ? rim_.free_x : k == 1 ? rim_.free_y : rim_.free_spin;
+}
+
+/// Whether forces move the component in this try: not where a table or the brake holds it.
+bool WheelRim::moves(Index k) const noexcept {
+  return is_free(k) && !(k == 2 && brake_ == Brake::locks);
 }
 
 /// Velocities by the tables at the end of a step: those of the center are means over the step, so
@@ -154,15 +156,14 @@ RimVector WheelRim::hold() {
   Eigen::Matrix3d lines = lines_;
   at_rest_ = right_;
   for (Index k = 0; k < 3; ++k) {
-    if (is_free(k) && !(k == 2 && brake_ == Brake::locks)) continue;
+    if (moves(k)) continue;
     lines.row(k) = Eigen::RowVector3d::Unit(k);
     at_rest_[k] = held[k];
   }
-  const Eigen::Matrix3d inverse = lines.inverse();
-  at_rest_ = inverse * at_rest_;
-  answer_ = inverse;
+  answer_ = lines.inverse();
+  at_rest_ = answer_ * at_rest_;
   for (Index k = 0; k < 3; ++k)
-    if (!is_free(k) || (k == 2 && brake_ == Brake::locks)) answer_.col(k).setZero();
+    if (!moves(k)) answer_.col(k).setZero();
   return at_rest_;
 }
 
@@ -237,7 +238,7 @@ double WheelRim::scheme_work(const End& end, const RimVector& missed) const {
   const Vec2 moment = 0.5 * (sums_.moment + end.sums.moment);
   const double begun = (motion_.angle_next - motion_.angle) / dt;
   const RimVector force = theta_ * end.force + (1.0 - theta_) * force_;
-  return missed.dot(v) + dot(plane(change), momentum - end.middle - v[2] * turned(moment)) +
+  return missed.dot(v) + dot(plane(change), momentum - end.middle - v[2] * turn90(moment)) +
          (begun * begun - s * s_end) * (end.sums.stretch - sums_.stretch) +
          0.5 * (kept_spin_ * kept_spin_ - s * s_end) * (end.sums.square - sums_.square) +
          change[2] * (0.5 * (sums_.swirl + end.sums.swirl) - end.swirl) + dt * force.dot(v) -
@@ -256,7 +257,7 @@ void WheelRim::finish(const End& end, dynamics::Works& works) {
   const RimVector after = momentum_of(end_, end.sums);
   RimVector missed = after - actual_ - dt * force, held = RimVector::Zero();
   for (Index k = 0; k < 3; ++k) {
-    if (is_free(k) && !(k == 2 && brake_ == Brake::locks)) {
+    if (moves(k)) {
       momentum_[k] += dt * force[k];
       error_[k] += after[k] - momentum_[k];
       continue;
@@ -266,7 +267,7 @@ void WheelRim::finish(const End& end, dynamics::Works& works) {
     missed[k] = error_[k] = 0.0;
   }
   add_works(v, held, works);
-  const Vec2 carried = mass_ * plane(v) + end.middle + v[2] * turned(moment);
+  const Vec2 carried = mass_ * plane(v) + end.middle + v[2] * turn90(moment);
   works.gravity += dt * dot(gravity_, carried);
   works.scheme += scheme_work(end, missed);
   report_ = {};

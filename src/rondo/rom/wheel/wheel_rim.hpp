@@ -26,7 +26,8 @@ struct WheelMotion {
   double spin_rate = 0.0;                ///< (s_{n+1} - s_n)/Δt                     [rad/s²]
   Vec2 center, center_next;              ///< [m]
   Vec2 pull;                             ///< mean of c̈ - g, fixed frame               [m/s²]
-  /// Of a moving rim: the spin of the step's matrices, which are kept while it is close [rad/s].
+  /// A rim that moves says for which spin the step takes its matrices: it keeps them while its own
+  /// spin is close [rad/s].
   std::optional<double> kept_spin;
 };
 
@@ -118,6 +119,7 @@ class WheelRim {
   enum class Brake { off, slips, locks };
 
   [[nodiscard]] bool is_free(Eigen::Index k) const noexcept;
+  [[nodiscard]] bool moves(Eigen::Index k) const noexcept;
   [[nodiscard]] RimVector given(double t) const;
   [[nodiscard]] RimVector momentum_of(const RimVector& v, const WheelSums& sums) const;
   [[nodiscard]] RimVector outside(const RimVector& v, Vec2 place) const;
@@ -144,7 +146,7 @@ class WheelRim {
   RimVector error_;     ///< of set_lines() in the last step, which is expected in the next
   WheelSums sums_;      ///< at t_n
 
-  // Of the step.
+  // The members below are made anew by each step.
   WheelMotion motion_;
   Vec2 gravity_;
   RimVector load_;     ///< F, T
