@@ -69,8 +69,10 @@ def means(directory):
 def full_runs(options, mesh, folder, points, words):
     def run(point):
         out = folder / ("-".join(f"{x:g}" for x in point) + ("-taught" if not words else ""))
-        if not (out / "history.csv").exists():
-            rondo(options.program, "run", CASE, "-o", out, "--threads", 1, *settings(point, mesh), *words)
+        told = out / "run.json"
+        if not told.exists() or json.loads(told.read_text())["status"] != "done":
+            rondo(options.program, "run", CASE, "-o", out, "--overwrite", "--threads", 1,
+                  *settings(point, mesh), *words)
         return out
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         return list(pool.map(run, points))
