@@ -13,7 +13,7 @@ from .data.errors import InputError
 from .data.tables import installed
 
 if TYPE_CHECKING:
-    from .simulation import Simulation
+    from ._core import Steps
 
 
 @dataclass(frozen=True)
@@ -66,17 +66,18 @@ class Matrices:
         return self._rows(time, displacement, angle, center)
 
 
-def matrices_of(simulation: Simulation) -> Matrices:
-    """@raise Error: no scipy; InputError: a body without a constant stiffness."""
+def matrices_of(steps: Steps,
+                now: Callable[[], tuple[float, np.ndarray, np.ndarray]]) -> Matrices:
+    """now: angle, center and displacement of the simulation as it is.
+    @raise Error: no scipy; InputError: a body without a constant stiffness."""
     installed("scipy", "Simulation.matrices()")
     from scipy.sparse import csr_matrix
 
-    steps = simulation._steps
     found = steps.operators()
     sparse = {name: csr_matrix(tuple(value[:3]), shape=value[3])
               for name, value in found.items() if isinstance(value, tuple)}
     nodes, c = found["nodes"], found["reference"].shape[1]
-    shape = simulation.mesh.coordinates.shape
+    shape = now()[2].shape
 
     def of_all_nodes(displacement: Any) -> np.ndarray:
         u = np.asarray(displacement, float)
@@ -92,7 +93,7 @@ def matrices_of(simulation: Simulation) -> Matrices:
     def frame_of(time: float | None, angle: float | None,
                  center: Sequence[float] | None) -> tuple[float, list[float]]:
         if angle is None or center is None:
-            there = (simulation.angle, simulation.center) if time is None else steps.frame_at(time)
+            there = now()[:2] if time is None else steps.frame_at(time)
             angle = there[0] if angle is None else angle
             center = list(there[1]) if center is None else center
         numbers = [float(x) for x in center]
@@ -104,7 +105,7 @@ def matrices_of(simulation: Simulation) -> Matrices:
     def rows(time: float | None, displacement: Any, angle: float | None,
              center: Sequence[float] | None) -> ContactRows:
         if displacement is None and time is None and angle is None and center is None:
-            displacement = simulation.displacement
+            displacement = now()[2]
         u = [] if displacement is None else of_all_nodes(displacement).ravel().tolist()
         at_angle, at_center = frame_of(time, angle, center)
         there = steps.contact_rows(at_angle, at_center, u)

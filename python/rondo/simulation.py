@@ -280,7 +280,7 @@ class Simulation:
     def matrices(self) -> Matrices:
         """Mass, damping, stiffness and gyroscopic matrix of the motion as scipy.sparse has them, and
         rows of its contacts: docs/operators.md. Those of a body with a constant stiffness."""
-        return matrices_of(self)
+        return matrices_of(self._steps, lambda: (self.angle, self.center, self.displacement))
 
     # Its end
 
