@@ -82,16 +82,20 @@ PlacedCell place(const mesh::Cell& cell, std::span<const Vec2> x, std::span<cons
   return out;
 }
 
-/// Points of the ground in the cell.
+/// Points of the ground in the cell: a quarter of its size apart, of a cell that the initial
+/// displacement stretched many times a part of its diagonal.
 std::vector<Vec2> points_in(const contact::Ground& ground, const PlacedCell& cell) {
   Vec2 low = cell.corner[0], high = low;
   for (const Vec2 corner : cell.corners()) {
     low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
     high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
   }
+  constexpr double finest = 1.0 / 256.0;
+  const double diagonal = norm(high - low);
   if (low.y > ground.top()) return {};
-  if (std::abs(ground.distance(0.5 * (low + high))) > 0.5 * norm(high - low)) return {};
-  std::vector<Vec2> points = ground.surface_points(low, high, 0.25 * cell.size);
+  if (std::abs(ground.distance(0.5 * (low + high))) > 0.5 * diagonal) return {};
+  const double apart = std::max(0.25 * cell.size, finest * diagonal);
+  std::vector<Vec2> points = ground.surface_points(low, high, apart);
   std::erase_if(points, [&](Vec2 p) { return !mesh::shape_functions(cell.corners(), p); });
   return points;
 }
