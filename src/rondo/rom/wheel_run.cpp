@@ -36,13 +36,15 @@ Ring ring_of(const dynamics::Model& model) {
 
 /// One table for a spin that stays; else three between 0 and the largest, where a polynomial in s²
 /// errs least (Chebyshev).
-WheelModel make_wheel_model(const Ring& ring, const ModeChoice& modes, const KnownSpins& spins) {
+WheelModel make_wheel_model(const Ring& ring, const ModeChoice& modes, const KnownSpins& spins,
+                            const WholeMesh* whole) {
   const OneBlasThread one;
   WheelModel wheel;
-  wheel.harmonics = ring_modes(ring, modes);
+  wheel.harmonics = whole ? whole_modes(ring, *whole, modes) : ring_modes(ring, modes);
   for (const Complex x : ring.place) wheel.radius = std::max(wheel.radius, std::hypot(x.re, x.im));
   const auto residual = [&](double square) {
-    return ring_residual(ring, wheel.harmonics, square, ResidualForm::convected);
+    return whole ? whole_residual(ring, *whole, wheel.harmonics, square)
+                 : ring_residual(ring, wheel.harmonics, square, ResidualForm::convected);
   };
   if (!spins.change || spins.most == 0.0) {
     wheel.largest_spin = spins.least;

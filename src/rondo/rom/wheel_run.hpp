@@ -9,6 +9,7 @@
 #include "rondo/core/process_wide.hpp"
 #include "rondo/model/integrator.hpp"
 #include "rondo/rom/wheel/ring_wheel.hpp"
+#include "rondo/rom/wheel/whole_mesh.hpp"
 
 namespace rondo::rom {
 
@@ -24,7 +25,7 @@ struct WheelFigures {
   double wall_s = 0.0, slowest_step_s = 0.0;
 };
 
-/// @param model with `sector` and a contact without mass: its masses are 0 at contact nodes
+/// @param model with `sector` and contact nodes without mass: its masses are 0 at contact nodes
 [[nodiscard]] Ring ring_of(const dynamics::Model& model);
 /// Spins up to which the residual of a wheel is to be known [rad/s].
 struct KnownSpins {
@@ -32,8 +33,10 @@ struct KnownSpins {
   double most = 0.0;    ///< where no spin up to it is critical
   bool change = false;  ///< false: the spin is always `least`, or its opposite
 };
+/// @param whole of a ring of one sector (whole_mesh.hpp); of others null
 [[nodiscard]] WheelModel make_wheel_model(const Ring& ring, const ModeChoice& modes,
-                                          const KnownSpins& spins);
+                                          const KnownSpins& spins,
+                                          const WholeMesh* whole = nullptr);
 
 class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
  public:

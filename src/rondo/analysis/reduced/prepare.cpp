@@ -69,7 +69,7 @@ void check_case(const Case& c, const RunOptions& options, const Setup& setup) {
   if (!is_known(snapshot_names, options.reduced_snapshots))
     throw request_error("--snapshots", options.reduced_snapshots, "no such snapshots",
                         "fields or modes");
-  refuse_combinations(c, setup.model, dynamics::has::reduced);
+  refuse_combinations(c, setup.model, dynamics::has::reduced | dynamics::has::model_of_runs);
 }
 
 void check_model(const Case& c, const RunOptions& options, const ReducedFile& file,

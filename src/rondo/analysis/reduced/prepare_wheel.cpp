@@ -46,9 +46,11 @@ ExpectedContact expected(const Case& c, bool led, const Setup& setup) {
   const double above = std::clamp(lowest - (std::isfinite(top) ? top : 0.0), 0.0, radius);
   const bool lowers_itself = led || (c.rim && c.rim->free_y);
   if (!lowers_itself) e.length = 2.0 * std::sqrt(radius * radius - above * above);
-  e.spacing = 2.0 * std::numbers::pi * radius / static_cast<double>(setup.mesh.boundary.size());
+  const auto n_nodes = static_cast<double>(setup.model.contact->nodes.size());
+  e.spacing = 2.0 * std::numbers::pi * radius / n_nodes;
   if (e.length < e.spacing) e.length = 0.0;  // it may not touch at all
-  if (e.spin > 0.0) e.pass = 2.0 * std::numbers::pi / setup.mesh.n_sectors / e.spin;
+  const double n = setup.model.sector ? setup.mesh.n_sectors : n_nodes;
+  if (e.spin > 0.0) e.pass = 2.0 * std::numbers::pi / n / e.spin;
   return e;
 }
 
@@ -89,7 +91,8 @@ rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
                           "is no number of modes", "a whole number from 0 to 100000");
     return {.wanted = static_cast<int>(*options.reduced_modes)};
   }
-  const bool tread = setup.mesh.boundary.size() > static_cast<std::size_t>(setup.mesh.n_sectors);
+  const bool tread = setup.model.sector &&
+                     setup.mesh.boundary.size() > static_cast<std::size_t>(setup.mesh.n_sectors);
   return {.wanted = tread ? most_modes_of_tread : most_modes,
           .highest = highest_mode / setup.model.dt,
           .fewest = fewest_modes};
@@ -119,7 +122,7 @@ void move_masses(const Case& c, Setup& setup) {
   if (moved.without_neighbour >= 0) {
     const Vec2 x = model.reference[static_cast<std::size_t>(moved.without_neighbour)];
     throw case_error(
-        c, "disk.mesh.radial",
+        c, c.mesh ? "mesh.contact" : "disk.mesh.radial",
         fmt::format("the contact node at ({:.4g}, {:.4g}) m has no free neighbour that "
                     "could carry its mass",
                     x.x, x.y),
@@ -175,6 +178,30 @@ double PreparedWheel::highest() const {
   return most;
 }
 
+namespace {
+
+/// A wheel of a mesh without equal sectors.
+void make_whole(const Case& c, const RunOptions& options, const rom::KnownSpins& spins,
+                const Setup& setup, PreparedWheel& wheel) {
+  const dynamics::Model& model = setup.model;
+  const rom::WholeMesh whole{setup.mesh, model.stiffness, model.free};
+  wheel.whole = rom::one_sector(whole);
+  wheel.ring.emplace(
+      rom::make_ring(*wheel.whole, model.mass, model.reference, model.contact->nodes));
+  wheel.model = rom::make_wheel_model(*wheel.ring, modes_of(options, setup), spins, &whole);
+  if (std::ranges::all_of(wheel.model.residuals,
+                          [](const rom::RingResidual& r) { return r.made_static.empty(); }))
+    return;
+  throw case_error(
+      c, "motion.angular_velocity",
+      fmt::format("the spin of {:.6g} rad/s is above the lowest frequency of the mesh: "
+                  "the wheel has no shape that it could turn in",
+                  wheel.model.largest_spin),
+      "a slower spin, or a stiffer body");
+}
+
+}  // namespace
+
 void prepare_wheel(const Case& c, const RunOptions& options, std::optional<double> led,
                    Setup& setup, PreparedWheel& wheel) {
   refuse(c, options, setup);
@@ -183,9 +210,13 @@ void prepare_wheel(const Case& c, const RunOptions& options, std::optional<doubl
   wheel.expected = expected(c, led.has_value(), setup);
   setup.model.dt = step_of(options, wheel.expected);
   setup.n_steps = count_steps(c, setup.model.dt);
-  wheel.ring.emplace(rom::ring_of(setup.model));
-  wheel.model = rom::make_wheel_model(*wheel.ring, modes_of(options, setup),
-                                      spins_of(c, led, wheel.expected.spin, radius_of(setup)));
+  const rom::KnownSpins spins = spins_of(c, led, wheel.expected.spin, radius_of(setup));
+  if (setup.model.sector) {
+    wheel.ring.emplace(rom::ring_of(setup.model));
+    wheel.model = rom::make_wheel_model(*wheel.ring, modes_of(options, setup), spins);
+  } else {
+    make_whole(c, options, spins, setup, wheel);
+  }
   setup.reduced = fmt::format("a reduced wheel of {} modes with a step of {:.17g} s",
                               wheel.n_modes(), setup.model.dt);
   setup.saved_numbers = rom::WheelRun::n_numbers(setup.model, *wheel.ring, wheel.model);

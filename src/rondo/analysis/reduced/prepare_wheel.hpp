@@ -17,12 +17,14 @@ struct ExpectedContact {
   double spin = 0.0;     ///< largest |ω|                                             [rad/s]
   double speed = 0.0;    ///< largest of |V| and |ω| R                                  [m/s]
   double length = 0.0;   ///< of the contact at the lowest height, on flat ground; 0: not known [m]
-  double pass = 0.0;     ///< time in which a sector passes; 0: it does not turn            [s]
+  double pass = 0.0;     ///< time in which a sector passes, without equal sectors a node;
+                         ///< 0: it does not turn                                          [s]
   double spacing = 0.0;  ///< of contact nodes, in the mean                                 [m]
 };
 
 struct PreparedWheel {
-  std::optional<rom::Ring> ring;  ///< of the setup's sector
+  std::optional<fem::SectorStiffness> whole;  ///< of a mesh without equal sectors
+  std::optional<rom::Ring> ring;              ///< of this or of the setup's sector
   rom::WheelModel model;
   ExpectedContact expected;
   double full_step = 0.0;     ///< step of the full run                                       [s]

@@ -41,6 +41,7 @@ constexpr std::array names{
     FeatureName{has::hati | has::other_scheme, "scheme \"hati\""},
     FeatureName{has::reduced, "reduced model"},
     FeatureName{has::exact_wheel | has::reduced, "reduced wheel of the case"},
+    FeatureName{has::model_of_runs | has::reduced, "model of rondo reduce"},
 };
 
 constexpr std::array steps{
@@ -183,8 +184,12 @@ constexpr std::array limits{
           "a reduced run is for one constrained disk on the ground, without free bodies"},
     Limit{has::body_contact, has::reduced, any,
           "a reduced run is for one constrained disk on the ground, without contact of bodies"},
-    Limit{has::mesh_file, has::reduced, any,
-          "a reduced run needs equal sectors, which a mesh from a file is not known to have"},
+    Limit{has::mesh_file, has::model_of_runs, any,
+          "a model of rondo reduce needs equal sectors, which a mesh from a file is not known to "
+          "have"},
+    Limit{has::mesh_file, has::exact_wheel | has::loaded_rim, any,
+          "a reduced wheel on a rim that forces move needs equal sectors, which a mesh from a file "
+          "is not known to have"},
     Limit{has::pressure, has::reduced, any,
           "a reduced run is for one constrained disk on the ground, without pressures"},
     Limit{has::sharp_corners, has::reduced, any,

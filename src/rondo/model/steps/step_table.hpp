@@ -42,6 +42,7 @@ enum Feature : Features {
   reduced = 1U << 20,            ///< a run of a reduced model
   friction_law = 1U << 21,       ///< friction that is no constant
   exact_wheel = 1U << 22,        ///< a reduced wheel made of the case; sets reduced as well
+  model_of_runs = 1U << 23,      ///< a model of rondo reduce; sets reduced as well
 };
 }  // namespace has
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
@@ -86,26 +87,12 @@ struct Condensed {
 RingHarmonic harmonic_of(const Ring& ring, const Parts& parts, int k, Index n_modes) {
   const Condensed c(ring, parts, k);
   const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(c.matrix);
-  RingHarmonic h;
-  h.k = k;
-  h.squares = solver.eigenvalues().head(n_modes);
   const MatrixXcd inner =
       c.root.cwiseInverse().asDiagonal() * solver.eigenvectors().leftCols(n_modes);
-  h.contact = c.follow * inner;
-  h.shapes = MatrixXcd::Zero(ring.n_rows(), n_modes);
-  h.shapes(parts.inner, Eigen::all) = inner;
-  h.shapes(parts.contact, Eigen::all) = h.contact;
-  const MatrixXcd weighted = masses(ring).asDiagonal() * h.shapes;
-  const MatrixXcd turning = weighted.adjoint() * quarter_turned(h.shapes);
-  h.coriolis = 0.5 * (turning - turning.adjoint());
-  h.reference = weighted.adjoint() * reference(ring);
-  h.turned = weighted.adjoint() * quarter_turned(reference(ring));
-  VectorXcd ones(ring.n_rows());
-  for (Index a = 0; a < ones.size(); a += 2) ones[a] = 1.0, ones[a + 1] = -i;
-  h.translation = weighted.transpose() * ones;
-  if (k != 0) h.reference.setZero(), h.turned.setZero();
-  if (k != 1) h.translation.setZero();
-  return h;
+  MatrixXcd shapes(ring.n_rows(), n_modes);
+  shapes(parts.inner, Eigen::all) = inner;
+  shapes(parts.contact, Eigen::all) = c.follow * inner;
+  return make_harmonic(ring, k, solver.eigenvalues().head(n_modes), std::move(shapes));
 }
 
 /// How many eigenvalues of a Hermitian matrix are negative.
@@ -168,6 +155,25 @@ MatrixXcd stiffness_of(const Ring& ring, int k) {
   return 0.5 * (out + out.adjoint());
 }
 
+RingHarmonic make_harmonic(const Ring& ring, int k, VectorXd squares, MatrixXcd shapes) {
+  RingHarmonic h;
+  h.k = k;
+  h.squares = std::move(squares);
+  h.shapes = std::move(shapes);
+  h.contact = h.shapes(Parts(ring).contact, Eigen::all);
+  const MatrixXcd weighted = masses(ring).asDiagonal() * h.shapes;
+  const MatrixXcd turning = weighted.adjoint() * quarter_turned(h.shapes);
+  h.coriolis = 0.5 * (turning - turning.adjoint());
+  h.reference = weighted.adjoint() * reference(ring);
+  h.turned = weighted.adjoint() * quarter_turned(reference(ring));
+  VectorXcd ones(ring.n_rows());
+  for (Index a = 0; a < ones.size(); a += 2) ones[a] = 1.0, ones[a + 1] = -i;
+  h.translation = weighted.transpose() * ones;
+  if (k != 0) h.reference.setZero(), h.turned.setZero();
+  if (k != 1 && ring.n_sectors() > 1) h.translation.setZero();
+  return h;
+}
+
 VectorXd frequencies_of(const Ring& ring, int k) {
   const Condensed c(ring, Parts(ring), k);
   const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(c.matrix, Eigen::EigenvaluesOnly);
@@ -211,7 +217,7 @@ RingResidual ring_residual(const Ring& ring, std::span<const RingHarmonic> harmo
   const double spin = std::sqrt(spin_squared);
   const Parts parts(ring);
   const Index rows = ring.n_rows();
-  RingResidual out{n, size, {}, std::vector<double>(at(n) * at(size * rows)), {}, {}};
+  RingResidual out{n, size, {}, std::vector<double>(at(n) * at(size * rows)), {}, {}, {}};
   MatrixXcd forces = MatrixXcd::Zero(rows, size);
   for (Index c = 0; c < size; ++c) forces(parts.contact[at(c)], c) = 1.0;
   for (int k = 0; 2 * k <= n; ++k) {

@@ -6,6 +6,7 @@
 /// the displacement stands still in space. Forces are per metre of width.
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -46,10 +47,15 @@ struct RingHarmonic {
   Eigen::MatrixXcd coriolis;     ///< (r, r) J_k = φᴴ M J φ
   Eigen::VectorXcd reference;    ///< (r) φᴴ M X; harmonic 0
   Eigen::VectorXcd turned;       ///< (r) φᴴ M J X; harmonic 0
-  Eigen::VectorXcd translation;  ///< (r) l = φᵀ M (1, -i of each node); harmonic 1
+  Eigen::VectorXcd translation;  ///< (r) l = φᵀ M (1, -i of each node); harmonic 1, of a
+                                 ///< ring of one sector harmonic 0
 
   [[nodiscard]] double weight() const noexcept { return k == 0 ? 1.0 : 2.0; }
 };
+
+/// @param shapes (rows, r) φᴴ M φ = 1, with (r) squares ω²
+[[nodiscard]] RingHarmonic make_harmonic(const Ring& ring, int k, Eigen::VectorXd squares,
+                                         Eigen::MatrixXcd shapes);
 
 /// How many modes are taken: the lowest over all harmonics 0 <= k < N/2, where a mode of k > 0
 /// counts for two.
@@ -81,6 +87,9 @@ struct RingResidual {
   std::vector<double> fields;    ///< (N, 2C, rows) the same of all rows of a sector       [m²/N]
   Eigen::VectorXd centrifugal;   ///< (rows) displacement by the spin beyond the modes         [m]
   std::vector<int> made_static;  ///< harmonics in which the convected form has no meaning
+  /// (2C) forces -> (rows) displacement: of a mesh without sectors (whole_mesh.hpp), in place of
+  /// `fields`.
+  std::function<Eigen::VectorXd(const Eigen::VectorXd&)> by_contact;
 
   [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> block(int lag) const noexcept {
     const int d = (lag % n_sectors + n_sectors) % n_sectors;

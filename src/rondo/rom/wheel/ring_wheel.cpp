@@ -32,12 +32,8 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
       residuals.size(), model.squares.size());
   RONDO_DEMAND(settings.dt > 0.0 && model.radius > 0.0 && settings.theta >= 0.5, settings.dt,
                model.radius, settings.theta);
-  table_.n_sectors = residuals.front().n_sectors;
-  table_.size = residuals.front().size;
-  table_.blocks = residuals.front().blocks;
-  table_.centrifugal = residuals.front().centrifugal;
-  table_before_ = table_;
-  compliance_.resize(table_.blocks.size());
+  centrifugal_ = residuals.front().centrifugal;
+  compliance_.resize(residuals.front().blocks.size());
   const std::size_t n = ring.contact.size() * at(ring.n_sectors());
   memory_.resize(n);
   active_.reserve(n);
@@ -49,26 +45,57 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
   for (const RingHarmonic& h : harmonics_) {
     const Index r = h.squares.size(), c = h.contact.rows();
     const auto zero = [](Index size) { return Vector(Vector::Zero(size)); };
-    modes_.push_back({zero(2 * r), zero(2 * r), zero(r), zero(r), Matrix::Zero(2 * r, 2 * r),
-                      Matrix::Zero(2 * r, r), zero(c), zero(c), zero(2 * r), zero(2 * r),
-                      zero(2 * r), zero(c), zero(c), zero(c), zero(c)});
+    modes_.push_back({zero(2 * r), zero(2 * r), zero(r), zero(r), zero(r),
+                      Matrix::Zero(2 * r, 2 * r), Matrix::Zero(2 * r, r), zero(c), zero(c),
+                      zero(2 * r), Matrix::Zero(r, r), Matrix::Identity(r, r),
+                      Eigen::PartialPivLU<Matrix>(r), zero(2 * r), zero(2 * r), zero(c), zero(c),
+                      zero(c), zero(c)});
   }
+  if (!is_whole()) return;
+  std::vector<Vec2> arms;
+  for (int node = 0; node < n_contact_; ++node) arms.push_back(arm(node));
+  left_.emplace(arms);
 }
 
 /// The residual of a spin.
-void RingWheel::set_table(double spin) {
+void RingWheel::set_residual(double spin) {
   const double square = spin * spin;
-  std::fill(table_.blocks.begin(), table_.blocks.end(), 0.0);
-  table_.centrifugal.setZero();
+  centrifugal_.setZero();
   for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
     double share = 1.0;
     for (std::size_t b = 0; b < model_.residuals.size(); ++b)
       if (b != a) share *= (square - model_.squares[b]) / (model_.squares[a] - model_.squares[b]);
-    for (std::size_t e = 0; e < table_.blocks.size(); ++e)
-      table_.blocks[e] += share * model_.residuals[a].blocks[e];
     shares_[a] = share;
-    table_.centrifugal += share * model_.residuals[a].centrifugal;
+    centrifugal_ += share * model_.residuals[a].centrifugal;
   }
+}
+
+/// E and Δt S of a harmonic: 1 - ½Δt A = [c, -h; hL, c + hD] is inverted by its blocks.
+void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Modes& s) const {
+  const Index r = of.squares.size();
+  const double half = 0.5 * settings_.dt;
+  const Complexes c = 1.0 + half * Complexes(0.0, of.k * spin), by = half / c;
+  const auto squares = of.squares.array();
+  const auto stiff = (squares - spin * spin).matrix();
+  const auto damping = (settings_.mass_damping + settings_.stiffness_damping * squares).matrix();
+  s.step = (2.0 * half * spin + half * by * rate) * of.coriolis;
+  s.step.diagonal() += half * damping.cast<Complexes>() + half * by * stiff.cast<Complexes>();
+  s.step.diagonal().array() += c;
+  s.factor.compute(s.step);
+  auto corner = s.push.bottomRows(r);  // inverse of the lower right corner
+  corner = s.factor.solve(s.one);
+  s.push.topRows(r) = by * corner;
+  auto lower = s.carry.bottomLeftCorner(r, r);
+  lower.noalias() = corner * stiff.cast<Complexes>().asDiagonal();
+  if (rate != 0.0) lower.noalias() += rate * (corner * of.coriolis);
+  lower *= -by;
+  s.carry.topLeftCorner(r, r) = by * lower;
+  s.carry.topLeftCorner(r, r).diagonal().array() += 1.0 / c;
+  s.carry.topRightCorner(r, r) = by * corner;
+  s.carry.bottomRightCorner(r, r) = corner;
+  s.carry *= 2.0;  // (1 - X)⁻¹ (1 + X) = 2 (1 - X)⁻¹ - 1
+  s.carry.diagonal().array() -= 1.0;
+  s.push *= settings_.dt;
 }
 
 /// The matrices of a step, and the answers of the contact nodes at its end.
@@ -76,35 +103,23 @@ void RingWheel::use_spin(const WheelMotion& m) {
   const double rate = m.kept_spin ? 0.0 : m.spin_rate, end = m.kept_spin.value_or(m.spin_next);
   const bool same = has_matrices_ && spin_rate_ == 0.0 && spin_ == end;
   new_table_ = rate != 0.0 || !same;
-  if (!new_table_) return;
-  std::swap(table_before_, table_);
+  if (new_table_) take_spin(m, rate, end);
+  if (m.kept_spin && !has_shift_) shift_modes();
+}
+
+void RingWheel::take_spin(const WheelMotion& m, double rate, double end) {
+  shares_before_ = shares_;
   spin_ = end;
   spin_rate_ = rate;
   has_matrices_ = true;
   const double dt = settings_.dt;
   const double spin = rate == 0.0 ? end : (m.angle_next - m.angle) / dt;
-  set_table(end);
-  for (std::size_t h = 0; h < harmonics_.size(); ++h) {
-    const RingHarmonic& of = harmonics_[h];
-    const Index r = of.squares.size();
-    const Complexes wander(0.0, -of.k * spin);
-    Matrix a = Matrix::Zero(2 * r, 2 * r);
-    a.topRightCorner(r, r).setIdentity();
-    a.bottomLeftCorner(r, r) = -rate * of.coriolis;
-    a.bottomRightCorner(r, r) = -2.0 * spin * of.coriolis;
-    for (Index j = 0; j < r; ++j) {
-      a(j, j) += wander;
-      a(r + j, j) -= of.squares[j] - spin * spin;
-      a(r + j, r + j) +=
-          wander - settings_.mass_damping - settings_.stiffness_damping * of.squares[j];
-    }
-    const Matrix one = Matrix::Identity(2 * r, 2 * r);
-    const Matrix inverse = (one - 0.5 * dt * a).partialPivLu().inverse();
-    modes_[h].carry = inverse * (one + 0.5 * dt * a);
-    modes_[h].push = dt * inverse.rightCols(r);
-  }
-  shift_modes();
-  fill_compliance();
+  set_residual(end);
+  for (std::size_t h = 0; h < harmonics_.size(); ++h)
+    fill_step(harmonics_[h], spin, rate, modes_[h]);
+  has_shift_ = false;
+  near_compliance_ = is_whole() && rate != 0.0;
+  if (!near_compliance_) fill_compliance();
 }
 
 /// The angle at which the modes are at the end of the step.
@@ -115,9 +130,13 @@ double RingWheel::waves_at(const WheelMotion& m) const noexcept {
 /// W[lag] = G[lag]/(1 + β/Δt) + the modes' answer.
 void RingWheel::fill_compliance() {
   const double lag = settings_.stiffness_damping / settings_.dt;
-  const Index size = table_.size;
-  for (std::size_t e = 0; e < compliance_.size(); ++e)
-    compliance_[e] = table_.blocks[e] / (1.0 + lag);
+  const Index size = ring_.n_contact();
+  for (std::size_t e = 0; e < compliance_.size(); ++e) {
+    double g = 0.0;
+    for (std::size_t a = 0; a < model_.residuals.size(); ++a)
+      g += shares_[a] * model_.residuals[a].blocks[e];
+    compliance_[e] = g / (1.0 + lag);
+  }
   const int n = ring_.n_sectors();
   for (std::size_t h = 0; h < harmonics_.size(); ++h) {
     const RingHarmonic& of = harmonics_[h];
@@ -132,15 +151,70 @@ void RingWheel::fill_compliance() {
   }
 }
 
+/// The same of a ring of one sector, between the near nodes alone.
+void RingWheel::fill_near_compliance() {
+  const double lag = settings_.stiffness_damping / settings_.dt;
+  const Index size = ring_.n_contact(), n = static_cast<Index>(near_.size());
+  const auto entry = [&](Index i, int c) { return Index{2} * near_[at(i)].node + c; };
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) {
+      const Block g = beyond_modes(shares_, near_[at(i)].node, near_[at(j)].node);
+      for (int e = 0; e < 4; ++e)
+        compliance_[at(entry(j, e % 2) * size + entry(i, e / 2))] = g[at(e)] / (1.0 + lag);
+    }
+  for (std::size_t h = 0; h < harmonics_.size(); ++h) {
+    const Index r = harmonics_[h].squares.size();
+    Eigen::MatrixXd shapes(2 * n, r);
+    for (Index i = 0; i < 2 * n; ++i)
+      shapes.row(i) = harmonics_[h].contact.row(entry(i / 2, static_cast<int>(i % 2))).real();
+    const Eigen::MatrixXd reply =
+        settings_.theta * modes_[h].push.topRows(r).real() * shapes.transpose();
+    const Eigen::MatrixXd answer = shapes * reply;
+    for (Index i = 0; i < 2 * n; ++i)
+      for (Index j = 0; j < 2 * n; ++j)
+        compliance_[at(entry(j / 2, static_cast<int>(j % 2)) * size +
+                       entry(i / 2, static_cast<int>(i % 2)))] += answer(i, j);
+  }
+}
+
+/// What the forces of the step before do to modes that turn on, were they to stay in space: a mean
+/// over the step that is not in its middle would else be moved on with the nodes.
+void RingWheel::leave_forces(const WheelMotion& m) {
+  left_->clear();
+  for (const int node : active_)
+    if (const Vec2 force = memory_of(node).force; force != Vec2{})
+      left_->add(node, force, m.angle_next - m.angle);
+  for (std::size_t h = 0; h < modes_.size(); ++h) {
+    Vector& left = modes_[h].left;
+    left.setZero();
+    for (const LeftBehind::Share& share : left_->shares()) {
+      const Index row = Index{2} * share.node;
+      left += share.force.x * harmonics_[h].contact.row(row).transpose() +
+              share.force.y * harmonics_[h].contact.row(row + 1).transpose();
+    }
+  }
+}
+
 Eigen::Map<const Eigen::MatrixXd> RingWheel::compliance(int lag) const noexcept {
   const int d = (lag % ring_.n_sectors() + ring_.n_sectors()) % ring_.n_sectors();
-  return {compliance_.data() + d * table_.size * table_.size, table_.size, table_.size};
+  const Index size = ring_.n_contact();
+  return {compliance_.data() + d * size * size, size, size};
+}
+
+/// 2 × 2 block of G between two nodes, of a spin.
+RingWheel::Block RingWheel::beyond_modes(const Shares& shares, int to, int from) const noexcept {
+  Block sum{};
+  for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
+    const Block g = answer(model_.residuals[a].blocks.data(), to, from);
+    for (std::size_t e = 0; e < sum.size(); ++e) sum[e] += shares[a] * g[e];
+  }
+  return sum;
 }
 
 /// 2 × 2 block of a table between two nodes.
 RingWheel::Block RingWheel::answer(const double* table, int to, int from) const noexcept {
   const int lag = sector(to) - sector(from);
-  const Index size = table_.size, d = lag < 0 ? lag + ring_.n_sectors() : lag;
+  const Index size = ring_.n_contact(), d = lag < 0 ? lag + ring_.n_sectors() : lag;
   const double* block =
       table + d * size * size + 2 * (from % n_contact_) * size + 2 * (to % n_contact_);
   return {block[0], block[size], block[1], block[size + 1]};
@@ -150,16 +224,25 @@ RingWheel::Block RingWheel::answer(const double* table, int to, int from) const 
 void RingWheel::move_modes(const WheelMotion& m) {
   const double spin = (m.angle_next - m.angle) / settings_.dt;
   const Complexes back(m.pull.x, -m.pull.y);  // conj
+  const Vec2 own_pull = rotation(-0.5 * (m.angle + m.angle_next)) * m.pull;
+  if (is_whole()) leave_forces(m);
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     Modes& s = modes_[h];
     const RingHarmonic& of = harmonics_[h];
     const Index r = of.squares.size();
     s.outside.setZero();
     if (of.k == 0) s.outside = spin * spin * of.reference - m.spin_rate * of.turned;
-    if (of.k == 1) s.outside -= 0.5 * back * of.translation.conjugate();
+    if (is_whole())
+      s.outside -= (Complexes(own_pull.x, own_pull.y) * of.translation).real().cast<Complexes>();
+    else if (of.k == 1)
+      s.outside -= 0.5 * back * of.translation.conjugate();
     if (m.kept_spin) s.outside.noalias() -= m.spin_rate * (of.coriolis * s.state.head(r));
     s.before = s.state;
-    s.work.head(r) = s.outside + (1.0 - settings_.theta) * s.force;
+    s.work.head(r) = s.outside;
+    if (is_whole())
+      s.work.head(r) += 0.5 * s.force - (settings_.theta - 0.5) * s.left;
+    else
+      s.work.head(r) += (1.0 - settings_.theta) * s.force;
     s.state.noalias() = s.carry * s.before;
     s.state.noalias() += s.push * s.work.head(r);
     s.contact.noalias() = of.contact * s.state.head(r);
@@ -172,6 +255,7 @@ WheelReport RingWheel::step(const WheelMotion& m) {
   use_spin(m);
   move_modes(m);
   find_near(m, lag / (1.0 + lag));
+  if (near_compliance_) fill_near_compliance();
   solve(m, settings_.friction, report);
   take_forces(report);
   account(m, report);

@@ -3,8 +3,10 @@
 /// dynamics, the compliance of the contact nodes carries all the rest, contact nodes have no mass
 /// and touch the ground where they are. All in the plane, per metre of width.
 #pragma once
+#include <Eigen/LU>
 #include <array>
 #include <complex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "rondo/contact/ground.hpp"
 #include "rondo/core/vec2.hpp"
 #include "rondo/rom/wheel/gap_law.hpp"
+#include "rondo/rom/wheel/left_behind.hpp"
 #include "rondo/rom/wheel/ring_harmonics.hpp"
 #include "rondo/rom/wheel/wheel_rim.hpp"
 
@@ -128,9 +131,12 @@ class RingWheel {
   struct Modes {
     Vector state, before;    ///< (2r) at the end of the last step, and of the one before
     Vector force, outside;   ///< (r) of the contact, φ_cᴴ λ; of the frame
+    Vector left;             ///< (r) of the forces that stay in space; ring of one sector
     Matrix carry, push;      ///< (2r, 2r) E, (2r, r) Δt S: of the step
     Vector contact, middle;  ///< (2C) φ_c y without new forces, φ_c p in the middle of the step
     Vector work;             ///< (2r)
+    Matrix step, one;        ///< (r, r) what is inverted for the step; the identity
+    Eigen::PartialPivLU<Matrix> factor;  ///< of it
     // On a rim that moves: what unit accelerations along x and of the angle do.
     Vector shift, twist;                  ///< (2r) at the end of the step
     Vector shift_contact, twist_contact;  ///< (2C) φ_c y of these
@@ -169,8 +175,11 @@ class RingWheel {
     double end = 0.0, across = 0.0, start = 0.0;
   };
   using Block = contact::Block;
+  using Shares = std::array<double, 3>;  ///< of the model's residuals, at a spin
   static constexpr std::size_t numbers_of_node = 15;
   void use_spin(const WheelMotion& motion);
+  void take_spin(const WheelMotion& motion, double rate, double end);
+  void fill_step(const RingHarmonic& of, double spin, double rate, Modes& modes) const;
   void shift_modes();
   void twist_modes();
   [[nodiscard]] Eigen::Matrix3d momenta_by_rate(double spin) const;
@@ -188,8 +197,10 @@ class RingWheel {
   [[nodiscard]] Eigen::VectorXd forces_that_hold(std::span<const std::size_t> nodes) const;
   void push_modes(const Near& near, Vec2 own);
   void project(double angle, std::span<const Vec2> field, bool velocity);
-  void set_table(double spin);
+  void set_residual(double spin);
   void fill_compliance();
+  void fill_near_compliance();
+  void leave_forces(const WheelMotion& motion);
   void move_modes(const WheelMotion& motion);
   [[nodiscard]] double waves_at(const WheelMotion& motion) const noexcept;
   void find_near(const WheelMotion& motion, double filter);
@@ -204,10 +215,13 @@ class RingWheel {
   void take_forces(WheelReport& report);
   void account(const WheelMotion& motion, WheelReport& report);
   void account_modes(const WheelMotion& motion, WheelEnergy& energy) const;
-  [[nodiscard]] double work_on_modes(double angle, Vec2 Near::*force) const;
-  [[nodiscard]] Products products(const RingResidual& table) const;
+  [[nodiscard]] double work_on_modes(Complex turn, int node, Vec2 own) const;
+  [[nodiscard]] double work_on_modes(const WheelMotion& motion) const;
+  [[nodiscard]] Products products(const Shares& shares) const;
   void remember(const WheelMotion& motion);
   struct Rows;
+  template <class Filtered>
+  [[nodiscard]] Eigen::VectorXd by_contact(Filtered&& filtered) const;
   template <class Coefficients, class Filtered>
   void write_field(Rows rows, double angle, const Eigen::VectorXd& constant,
                    Coefficients&& coefficients, Filtered&& filtered, std::span<Vec2> field) const;
@@ -216,6 +230,7 @@ class RingWheel {
         ring_.contact[static_cast<std::size_t>(node % n_contact_)])];
     return {x.re, x.im};
   }
+  [[nodiscard]] bool is_whole() const noexcept { return ring_.n_sectors() == 1; }
   [[nodiscard]] int sector(int node) const noexcept { return node / n_contact_; }
   [[nodiscard]] Memory& memory_of(int node) noexcept {
     return memory_[static_cast<std::size_t>(node)];
@@ -223,6 +238,7 @@ class RingWheel {
   [[nodiscard]] const Memory& memory_of(int node) const noexcept {
     return memory_[static_cast<std::size_t>(node)];
   }
+  [[nodiscard]] Block beyond_modes(const Shares& shares, int to, int from) const noexcept;
   [[nodiscard]] Block answer(const double* table, int to, int from) const noexcept;
 
   const Ring& ring_;
@@ -232,12 +248,14 @@ class RingWheel {
   const WheelSettings settings_;
   const int n_contact_;  ///< C
   const bool flat_;
-  RingResidual table_, table_before_;    ///< of the spins at both ends of the step, without fields
-  std::array<double, 3> shares_{1.0};    ///< of the model's residuals in the table
-  std::vector<double> compliance_;       ///< (N, 2C, 2C) W[lag]                       [m²/N]
-  double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
-  bool has_matrices_ = false, new_table_ = false;
-  bool on_moving_rim_ = false;  ///< in the law
+  Shares shares_{1.0}, shares_before_{1.0};  ///< of the spins at both ends of the step
+  Eigen::VectorXd centrifugal_;              ///< (rows) of the spin at its end          [m]
+  std::vector<double> compliance_;           ///< (N, 2C, 2C) W[lag]                       [m²/N]
+  double spin_ = 0.0, spin_rate_ = 0.0;      ///< of the matrices, at the end of the last step
+  bool has_matrices_ = false, new_table_ = false, has_shift_ = false;
+  bool near_compliance_ = false;    ///< W is that of the near nodes of each step alone
+  std::optional<LeftBehind> left_;  ///< of a ring of one sector
+  bool on_moving_rim_ = false;      ///< in the law
   std::vector<Modes> modes_;
   std::vector<Memory> memory_;  ///< (N C)
   std::vector<int> active_;     ///< nodes with a filtered force, ascending

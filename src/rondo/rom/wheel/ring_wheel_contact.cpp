@@ -43,14 +43,14 @@ Vec2 by_rim(const std::array<Vec2, 3>& moved, const std::array<Vec2, 3>& reply,
 Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
   const Index c = Index{2} * (node % n_contact_);
   const Index row = Index{2} * ring_.contact[at(node % n_contact_)];
-  Vec2 u{table_.centrifugal[row], table_.centrifugal[row + 1]};
+  Vec2 u{centrifugal_[row], centrifugal_[row + 1]};
   for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
     const std::complex<double>* amplitude = modes_[h].contact.data() + c;
     const double weight = harmonics_[h].weight();
     u += weight * Vec2{real_product(wave, amplitude[0]), real_product(wave, amplitude[1])};
   });
   for (const int j : active_)
-    u += contact::apply(answer(table_.blocks.data(), node, j), filter * memory_of(j).filtered);
+    u += contact::apply(beyond_modes(shares_, node, j), filter * memory_of(j).filtered);
   return u;
 }
 

@@ -15,12 +15,12 @@ using Eigen::Index;
 }  // namespace
 
 /// Σ aᵀ G b of the filtered forces at both ends of the step.
-RingWheel::Products RingWheel::products(const RingResidual& table) const {
+RingWheel::Products RingWheel::products(const Shares& shares) const {
   Products sum;
   for (const int i : active_)
     for (const int j : active_) {
       const Memory &to = memory_of(i), &from = memory_of(j);
-      const Block g = answer(table.blocks.data(), i, j);
+      const Block g = beyond_modes(shares, i, j);
       const Vec2 now = contact::apply(g, from.filtered),
                  before = contact::apply(g, from.filtered_before);
       sum.end += dot(to.filtered, now);
@@ -30,23 +30,34 @@ RingWheel::Products RingWheel::products(const RingResidual& table) const {
   return sum;
 }
 
-/// Work of forces of near nodes, in the frames of their sectors, on the mean velocity of the modes,
-/// over Δt. @param angle of the modes
-double RingWheel::work_on_modes(double angle, Vec2 Near::*force) const {
-  const Complex frame = rotation(angle);
+/// Power of a force on a contact node, in the frame of its sector, on the mean velocity of the
+/// modes. @param turn e^{iψ} of the sector, where the modes are
+double RingWheel::work_on_modes(Complex turn, int node, Vec2 own) const {
+  if (own == Vec2{}) return 0.0;
+  const Index c = Index{2} * (node % n_contact_);
+  double power = 0.0;
+  for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
+    const std::complex<double>* rate = modes_[h].middle.data() + c;
+    power += harmonics_[h].weight() *
+             (real_product(wave, rate[0]) * own.x + real_product(wave, rate[1]) * own.y);
+  });
+  return power;
+}
+
+/// Work of the ground's forces on the modes in the step, node by node.
+double RingWheel::work_on_modes(const WheelMotion& m) const {
+  const double theta = settings_.theta, old = is_whole() ? 0.5 : 1.0 - theta;
+  const Complex frame = rotation(m.angle), next = rotation(waves_at(m));
   double power = 0.0;
   for (const Near& near : near_) {
-    const Vec2 own = near.*force;
-    if (own == Vec2{}) continue;
-    const Index c = Index{2} * (near.node % n_contact_);
-    for_waves(harmonics_, frame * ring_.stiffness.turn[at(sector(near.node))],
-              [&](std::size_t h, Complex wave) {
-                const std::complex<double>* rate = modes_[h].middle.data() + c;
-                power += harmonics_[h].weight() * (real_product(wave, rate[0]) * own.x +
-                                                   real_product(wave, rate[1]) * own.y);
-              });
+    const Complex turn = ring_.stiffness.turn[at(sector(near.node))];
+    power += theta * work_on_modes(next * turn, near.node, near.own) +
+             old * work_on_modes(frame * turn, near.node, near.own_before);
   }
-  return power;
+  if (is_whole())
+    for (const LeftBehind::Share& share : left_->shares())
+      power -= (theta - 0.5) * work_on_modes(next, share.node, share.force);
+  return settings_.dt * power;
 }
 
 /// Energy of the modes and what is done to them, but for the forces of the ground.
@@ -89,10 +100,10 @@ void RingWheel::account(const WheelMotion& m, WheelReport& report) {
     s.middle.noalias() = harmonics_[h].contact * s.work.head(r);
   }
   account_modes(m, e);
-  const Products of = products(table_);
+  const Products of = products(shares_);
   e.residual = 0.5 * of.end;
   const double by_table = new_table_ && (m.kept_spin || m.spin_rate != 0.0)
-                              ? 0.5 * (of.start - products(table_before_).start)
+                              ? 0.5 * (of.start - products(shares_before_).start)
                               : 0.0;
   if (!m.kept_spin) e.frame += by_table;
   e.by_residual = settings_.stiffness_damping / dt * (of.end - 2.0 * of.across + of.start);
@@ -106,16 +117,15 @@ void RingWheel::account(const WheelMotion& m, WheelReport& report) {
     if (was.known > 0) e.arrival += c.normal * (was.gap[0] - c.gap);
   }
   e.rim = dot(report.force, m.center_next - m.center) + (m.angle_next - m.angle) * report.torque;
-  const double work = dt * (settings_.theta * work_on_modes(waves_at(m), &Near::own) +
-                            (1.0 - settings_.theta) * work_on_modes(m.angle, &Near::own_before));
-  e.scheme = work + 0.5 * (of.end - of.start) + e.by_residual + e.friction + e.arrival + e.rim;
+  e.scheme =
+      work_on_modes(m) + 0.5 * (of.end - of.start) + e.by_residual + e.friction + e.arrival + e.rim;
   if (m.kept_spin) e.scheme += by_table;
 }
 
 WheelEnergy RingWheel::energy_at_start(bool softened) const {
   WheelEnergy e;
   const double by_spin = softened ? spin_ * spin_ : 0.0;
-  e.residual = 0.5 * products(table_).end;
+  e.residual = 0.5 * products(shares_).end;
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     const Eigen::VectorXd& squares = harmonics_[h].squares;
     const double n = 0.5 * harmonics_[h].weight() * ring_.n_sectors();

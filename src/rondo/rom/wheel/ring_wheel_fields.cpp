@@ -73,7 +73,7 @@ Eigen::VectorXd RingWheel::forces_that_hold(std::span<const std::size_t> nodes) 
     const auto row = static_cast<Index>(2 * i);
     moved.segment<2>(row) << by.x, by.y;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
-      const Block b = answer(table_.blocks.data(), near.node, near_[nodes[j]].node);
+      const Block b = beyond_modes(shares_, near.node, near_[nodes[j]].node);
       g.block<2, 2>(row, static_cast<Index>(2 * j)) << b[0], b[1], b[2], b[3];
     }
   }
@@ -182,13 +182,27 @@ struct RingWheel::Rows {
   }
 };
 
+/// (rows) What the filtered forces do beyond the modes, of a ring of one sector.
+template <class Filtered>
+Eigen::VectorXd RingWheel::by_contact(Filtered&& filtered) const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(ring_.n_contact());
+  for (const int node : active_) {
+    const Vec2 le = filtered(memory_of(node));
+    force.segment<2>(Index{2} * node) << le.x, le.y;
+  }
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(ring_.n_rows());
+  for (std::size_t a = 0; a < model_.residuals.size(); ++a)
+    u += shares_[a] * model_.residuals[a].by_contact(force);
+  return u;
+}
+
 /// Writes a field of the rows, in the co-rotating frame.
 /// @param constant (all rows) part that is the same in all sectors
 template <class Coefficients, class Filtered>
 void RingWheel::write_field(Rows rows, double angle, const Eigen::VectorXd& constant,
                             Coefficients&& coefficients, Filtered&& filtered,
                             std::span<Vec2> field) const {
-  const Index n_rows = rows.size(ring_), size = table_.size;
+  const Index n_rows = rows.size(ring_), size = ring_.n_contact();
   Eigen::VectorXd u(n_rows);
   std::vector<Vector> amplitudes;
   for (std::size_t h = 0; h < modes_.size(); ++h)
@@ -203,15 +217,18 @@ void RingWheel::write_field(Rows rows, double angle, const Eigen::VectorXd& cons
     for_waves(harmonics_, frame * turn, [&](std::size_t h, Complex wave) {
       u += wave.re * amplitudes[h].real() - wave.im * amplitudes[h].imag();
     });
-    for (const int node : active_) {
-      const Vec2 le = filtered(memory_of(node));
-      const int d = (j - sector(node) + n) % n, c = 2 * (node % n_contact_);
-      for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
-        const Eigen::Map<const Eigen::MatrixXd> all(
-            rows.table(model_.residuals[a]).data() + d * size * n_rows, n_rows, size);
-        u += shares_[a] * (le.x * all.col(c) + le.y * all.col(c + 1));
+    if (is_whole() && !rows.contact)
+      u += by_contact(filtered);
+    else
+      for (const int node : active_) {
+        const Vec2 le = filtered(memory_of(node));
+        const int d = (j - sector(node) + n) % n, c = 2 * (node % n_contact_);
+        for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
+          const Eigen::Map<const Eigen::MatrixXd> all(
+              rows.table(model_.residuals[a]).data() + d * size * n_rows, n_rows, size);
+          u += shares_[a] * (le.x * all.col(c) + le.y * all.col(c + 1));
+        }
       }
-    }
     for (Index a = 0; a < n_rows; a += 2)
       field[ring_.stiffness.node(rows.row(ring_, a), at(j))] = turn * Vec2{u[a], u[a + 1]};
   }
@@ -219,7 +236,7 @@ void RingWheel::write_field(Rows rows, double angle, const Eigen::VectorXd& cons
 
 void RingWheel::displacement(double angle, bool contact_alone, std::span<Vec2> u) const {
   write_field(
-      {contact_alone}, angle, table_.centrifugal,
+      {contact_alone}, angle, centrifugal_,
       [&](std::size_t h) { return modes_[h].state.head(harmonics_[h].squares.size()); },
       [](const Memory& memory) { return memory.filtered; }, u);
 }

@@ -58,6 +58,7 @@ WheelSums RingWheel::sums() const {
 
 /// What a unit acceleration along x does to the modes, and how momenta see new forces through them.
 void RingWheel::shift_modes() {
+  has_shift_ = true;
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     Modes& s = modes_[h];
     const RingHarmonic& of = harmonics_[h];

@@ -89,7 +89,7 @@ void RingWheel::restore(std::span<const double> numbers) {
   const double spin = from.next();
   if (!has_matrices_ || spin_rate_ != 0.0 || spin_ != spin) {
     spin_ = spin;
-    set_table(spin_);
+    set_residual(spin_);
     has_matrices_ = false;
   }
   for (Modes& s : modes_) {
