@@ -138,7 +138,7 @@ MEMBERS: dict[str, tuple[str, str, str]] = {
     "reduced.steps_not_converged": ("", "", "Steps whose contact missed the tolerance"),
     "wheel_modes": ("", "", "Number of modes of a reduced wheel made of the case"),
     "wheel_highest_mode": ("rad/s", "rad/s", "Angular frequency of its highest mode"),
-    "wheel_sector_pass": ("s", "s", "Time in which a sector passes at the largest spin; null: the wheel does not turn"),
+    "wheel_sector_pass": ("s", "s", "Time in which a sector passes at the largest spin, of a mesh from a file a contact node in the mean; null: the wheel does not turn"),
     "wheel_full_step": ("s", "s", "Step of the full run"),
     "wheel": ("", "", "Effort of the steps of a reduced wheel made of the case"),
     "wheel.step_wall_s": ("s", "s", "Wall time of all steps"),

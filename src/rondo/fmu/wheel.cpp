@@ -105,6 +105,12 @@ void Wheel::check() {
   if (!case_.ground)
     throw study::case_error(case_, "ground", "the wheel of an FMU has ground to roll on",
                             "a [ground], flat or with a profile");
+  if (case_.mesh)
+    throw study::case_error(
+        case_, "mesh.file",
+        "the importer moves the rim of an FMU, and a reduced wheel on a rim that "
+        "moves needs equal sectors, which a mesh from a file is not known to have",
+        "a [disk]; or rondo run --reduced, whose rim follows tables");
   if (case_.motion.gravity.points().size() > 1)
     throw study::case_error(case_, "motion.gravity", "gravity of an FMU stays as it is",
                             "a number");

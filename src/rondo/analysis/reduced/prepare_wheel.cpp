@@ -154,9 +154,9 @@ void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
                     e.speed * dt, e.length, e.length / 12.0 / e.speed));
   if (!led && e.pass > 0.0 && w.passes(dt) < 1.5)
     warn(
-        fmt::format("{:.2g} steps in the pass of a sector: forces of fewer than 1.5 swing; a "
+        fmt::format("{:.2g} steps in the pass of a {}: forces of fewer than 1.5 swing; a "
                     "--reduced-step of at most {:.2g} s",
-                    w.passes(dt), e.pass / 1.618));
+                    w.passes(dt), w.passing(), e.pass / 1.618));
   for (const rom::RingResidual& r : w.model.residuals)
     if (!r.made_static.empty())
       return warn(

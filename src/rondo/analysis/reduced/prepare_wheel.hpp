@@ -34,7 +34,9 @@ struct PreparedWheel {
   [[nodiscard]] int n_modes() const;
   /// Angular frequency of the highest mode [rad/s]
   [[nodiscard]] double highest() const;
-  /// Steps in the pass of a sector at the largest spin.
+  /// What passes in the time expected.pass.
+  [[nodiscard]] const char* passing() const { return whole ? "contact node" : "sector"; }
+  /// Steps in that time, at the largest spin.
   [[nodiscard]] double passes(double dt) const { return expected.pass / dt; }
 };
 

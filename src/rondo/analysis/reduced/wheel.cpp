@@ -23,7 +23,9 @@ constexpr JsonMember<PreparedWheel> wheel_rows[] = {
     {"wheel_highest_mode", "number", "rad/s", "Angular frequency of its highest mode",
      [](const PreparedWheel& w) -> Json { return w.highest(); }},
     {"wheel_sector_pass", "number or null", "s",
-     "Time in which a sector passes at the largest spin; null: the wheel does not turn",
+     "Time in which a sector passes at the largest spin, of a mesh from a file a contact node in "
+     "the "
+     "mean; null: the wheel does not turn",
      [](const PreparedWheel& w) { return w.expected.pass > 0.0 ? Json(w.expected.pass) : Json(); }},
     {"wheel_full_step", "number", "s", "Step of the full run",
      [](const PreparedWheel& w) -> Json { return w.full_step; }},
@@ -110,7 +112,7 @@ class WheelAnalysis final : public DynamicAnalysis {
                                                          wheel_.full_step, dt / wheel_.full_step));
     if (wheel_.expected.pass > 0.0)
       r.lines.emplace_back("steps in a pass",
-                           fmt::format("{:.4g}, of a sector", wheel_.passes(dt)));
+                           fmt::format("{:.4g}, of a {}", wheel_.passes(dt), wheel_.passing()));
     return r;
   }
   [[nodiscard]] std::vector<std::string> warnings() const override {

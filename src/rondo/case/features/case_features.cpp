@@ -94,7 +94,8 @@ dynamics::Features features_of(const Case& c) {
 }
 
 const CaseFeature& row_of(const Case& c, dynamics::Features feature) {
-  const auto is_it = [&](const CaseFeature& row) { return row.of == feature; };
+  const dynamics::Features first = feature & (~feature + 1);
+  const auto is_it = [&](const CaseFeature& row) { return row.of == first; };
   const auto* const in_case = std::ranges::find_if(
       rows, [&](const CaseFeature& row) { return is_it(row) && row.is_in(c); });
   if (in_case != rows.end()) return *in_case;

@@ -22,7 +22,7 @@ struct CaseFeature {
 /// input counts as absent.
 [[nodiscard]] dynamics::Features features_of(const Case& c);
 
-/// The row of a feature that the case or its model has.
+/// The row of a feature that the case or its model has; of several, that of the lowest.
 [[nodiscard]] const CaseFeature& row_of(const Case& c, dynamics::Features feature);
 
 /// "no [rim]; or time.scheme = ...": alternatives to what the limit
