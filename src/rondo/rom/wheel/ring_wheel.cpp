@@ -16,6 +16,17 @@ using Eigen::Index;
 
 }  // namespace
 
+RingWheel::Modes::Modes(const RingHarmonic& of) {
+  const Index r = of.squares.size(), c = of.contact.rows();
+  for (Vector* v : {&state, &before, &work, &shift, &twist}) v->setZero(2 * r);
+  for (Vector* v : {&force, &outside, &left, &pushed}) v->setZero(r);
+  for (Vector* v : {&contact, &middle, &shift_contact, &twist_contact, &by_rate, &by_place})
+    v->setZero(c);
+  stiff.setZero(r);
+  inverse.setZero(r, r);
+  one.setIdentity(r, r);
+}
+
 RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::Ground& ground,
                      const WheelSettings& settings)
     : ring_(ring),
@@ -42,15 +53,7 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
   touch_.reserve(n);
   law_.reserve(n);
   contacts_.reserve(n);
-  for (const RingHarmonic& h : harmonics_) {
-    const Index r = h.squares.size(), c = h.contact.rows();
-    const auto zero = [](Index size) { return Vector(Vector::Zero(size)); };
-    modes_.push_back({zero(2 * r), zero(2 * r), zero(r), zero(r), zero(r),
-                      Matrix::Zero(2 * r, 2 * r), Matrix::Zero(2 * r, r), zero(c), zero(c),
-                      zero(2 * r), Matrix::Zero(r, r), Matrix::Identity(r, r),
-                      Eigen::PartialPivLU<Matrix>(r), zero(2 * r), zero(2 * r), zero(c), zero(c),
-                      zero(c), zero(c)});
-  }
+  for (const RingHarmonic& h : harmonics_) modes_.emplace_back(h);
   if (!is_whole()) return;
   std::vector<Vec2> arms;
   for (int node = 0; node < n_contact_; ++node) arms.push_back(arm(node));
@@ -70,32 +73,27 @@ void RingWheel::set_residual(double spin) {
   }
 }
 
-/// E and Δt S of a harmonic: 1 - ½Δt A = [c, -h; hL, c + hD] is inverted by its blocks.
+/// The matrices of a harmonic. With h = ½Δt, the midpoint solves [c, -h; hL, c + hD] (y, p) = (y, p
+/// + hf).
 void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Modes& s) const {
-  const Index r = of.squares.size();
   const double half = 0.5 * settings_.dt;
-  const Complexes c = 1.0 + half * Complexes(0.0, of.k * spin), by = half / c;
-  const auto squares = of.squares.array();
-  const auto stiff = (squares - spin * spin).matrix();
-  const auto damping = (settings_.mass_damping + settings_.stiffness_damping * squares).matrix();
-  s.step = (2.0 * half * spin + half * by * rate) * of.coriolis;
-  s.step.diagonal() += half * damping.cast<Complexes>() + half * by * stiff.cast<Complexes>();
-  s.step.diagonal().array() += c;
+  s.turn = 1.0 + half * Complexes(0.0, of.k * spin);
+  s.lever = half / s.turn;
+  s.stiff = (of.squares.array() - spin * spin).matrix();
+  s.twisted = rate;
+  const auto damping = settings_.mass_damping + settings_.stiffness_damping * of.squares.array();
+  s.step = (2.0 * half * spin + half * rate * s.lever) * of.coriolis;
+  s.step.diagonal().array() += s.turn + half * damping + half * s.lever * s.stiff.array();
   s.factor.compute(s.step);
-  auto corner = s.push.bottomRows(r);  // inverse of the lower right corner
-  corner = s.factor.solve(s.one);
-  s.push.topRows(r) = by * corner;
-  auto lower = s.carry.bottomLeftCorner(r, r);
-  lower.noalias() = corner * stiff.cast<Complexes>().asDiagonal();
-  if (rate != 0.0) lower.noalias() += rate * (corner * of.coriolis);
-  lower *= -by;
-  s.carry.topLeftCorner(r, r) = by * lower;
-  s.carry.topLeftCorner(r, r).diagonal().array() += 1.0 / c;
-  s.carry.topRightCorner(r, r) = by * corner;
-  s.carry.bottomRightCorner(r, r) = corner;
-  s.carry *= 2.0;  // (1 - X)⁻¹ (1 + X) = 2 (1 - X)⁻¹ - 1
-  s.carry.diagonal().array() -= 1.0;
-  s.push *= settings_.dt;
+  s.inverse = s.factor.solve(s.one);
+}
+
+/// (2r) What a force on the modes does in a step.
+void RingWheel::push_by(const Modes& s, const Vector& force, Vector& out) const {
+  const Index r = s.stiff.size();
+  out.tail(r).noalias() = s.inverse * force;
+  out.tail(r) *= settings_.dt;
+  out.head(r) = s.lever * out.tail(r);
 }
 
 /// The matrices of a step, and the answers of the contact nodes at its end.
@@ -140,9 +138,8 @@ void RingWheel::fill_compliance() {
   const int n = ring_.n_sectors();
   for (std::size_t h = 0; h < harmonics_.size(); ++h) {
     const RingHarmonic& of = harmonics_[h];
-    const Index r = of.squares.size();
-    const Matrix g = settings_.theta * of.weight() / n *
-                     (of.contact * modes_[h].push.topRows(r) * of.contact.adjoint());
+    const Matrix g = settings_.theta * settings_.dt * of.weight() / n *
+                     (modes_[h].lever * (of.contact * modes_[h].inverse * of.contact.adjoint()));
     for (int d = 0; d < n; ++d) {
       const Complex turn = ring_.stiffness.turn[at(of.k * d % n)];
       Eigen::Map<Eigen::MatrixXd>(compliance_.data() + d * size * size, size, size) +=
@@ -167,8 +164,8 @@ void RingWheel::fill_near_compliance() {
     Eigen::MatrixXd shapes(2 * n, r);
     for (Index i = 0; i < 2 * n; ++i)
       shapes.row(i) = harmonics_[h].contact.row(entry(i / 2, static_cast<int>(i % 2))).real();
-    const Eigen::MatrixXd reply =
-        settings_.theta * modes_[h].push.topRows(r).real() * shapes.transpose();
+    const Eigen::MatrixXd reply = settings_.theta * settings_.dt *
+                                  (modes_[h].lever * modes_[h].inverse).real() * shapes.transpose();
     const Eigen::MatrixXd answer = shapes * reply;
     for (Index i = 0; i < 2 * n; ++i)
       for (Index j = 0; j < 2 * n; ++j)
@@ -238,13 +235,18 @@ void RingWheel::move_modes(const WheelMotion& m) {
       s.outside -= 0.5 * back * of.translation.conjugate();
     if (m.kept_spin) s.outside.noalias() -= m.spin_rate * (of.coriolis * s.state.head(r));
     s.before = s.state;
-    s.work.head(r) = s.outside;
+    s.pushed = s.outside;
     if (is_whole())
-      s.work.head(r) += 0.5 * s.force - (settings_.theta - 0.5) * s.left;
+      s.pushed += 0.5 * s.force - (settings_.theta - 0.5) * s.left;
     else
-      s.work.head(r) += (1.0 - settings_.theta) * s.force;
-    s.state.noalias() = s.carry * s.before;
-    s.state.noalias() += s.push * s.work.head(r);
+      s.pushed += (1.0 - settings_.theta) * s.force;
+    const auto y = s.before.head(r), p = s.before.tail(r);
+    s.pushed *= 0.5 * settings_.dt;
+    s.pushed += p - s.lever * s.stiff.cwiseProduct(y);
+    if (s.twisted != 0.0) s.pushed.noalias() -= s.lever * s.twisted * (of.coriolis * y);
+    s.state.tail(r).noalias() = s.inverse * s.pushed;  // the middle
+    s.state.head(r) = 2.0 * (y / s.turn + s.lever * s.state.tail(r)) - y;
+    s.state.tail(r) = 2.0 * s.state.tail(r) - p;
     s.contact.noalias() = of.contact * s.state.head(r);
   }
 }

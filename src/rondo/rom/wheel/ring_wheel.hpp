@@ -129,13 +129,19 @@ class RingWheel {
 
   /// The modes of a harmonic; their coefficients y and velocities p are one after the other.
   struct Modes {
+    explicit Modes(const RingHarmonic& of);
+
     Vector state, before;    ///< (2r) at the end of the last step, and of the one before
     Vector force, outside;   ///< (r) of the contact, φ_cᴴ λ; of the frame
     Vector left;             ///< (r) of the forces that stay in space; ring of one sector
-    Matrix carry, push;      ///< (2r, 2r) E, (2r, r) Δt S: of the step
     Vector contact, middle;  ///< (2C) φ_c y without new forces, φ_c p in the middle of the step
-    Vector work;             ///< (2r)
-    Matrix step, one;        ///< (r, r) what is inverted for the step; the identity
+    Vector pushed, work;     ///< (r), (2r)
+    // Of the step, see fill_step().
+    Complexes turn, lever;  ///< c = 1 + ½Δt iks; ½Δt/c                                         [s]
+    double twisted = 0.0;   ///< ṡ                                                     [rad/s²]
+    Eigen::VectorXd stiff;  ///< (r) ω² - s²                                              [1/s²]
+    Matrix inverse;  ///< (r, r) of c + ½Δt (α + βω² + 2sJ) + ½Δt lever (ω² - s² + ṡJ)
+    Matrix step, one;                    ///< (r, r) what is inverted; the identity
     Eigen::PartialPivLU<Matrix> factor;  ///< of it
     // On a rim that moves: what unit accelerations along x and of the angle do.
     Vector shift, twist;                  ///< (2r) at the end of the step
@@ -180,6 +186,7 @@ class RingWheel {
   void use_spin(const WheelMotion& motion);
   void take_spin(const WheelMotion& motion, double rate, double end);
   void fill_step(const RingHarmonic& of, double spin, double rate, Modes& modes) const;
+  void push_by(const Modes& modes, const Vector& force, Vector& out) const;
   void shift_modes();
   void twist_modes();
   [[nodiscard]] Eigen::Matrix3d momenta_by_rate(double spin) const;

@@ -262,7 +262,10 @@ void RingWheel::take_forces(WheelReport& report) {
     memory.filtered += 1.0 / (1.0 + lag) * own;
     push_modes(near, own);
   }
-  for (Modes& s : modes_) s.state.noalias() += settings_.theta * (s.push * s.force);
+  for (Modes& s : modes_) {
+    push_by(s, s.force, s.work);
+    s.state += settings_.theta * s.work;
+  }
   report.contacts = contacts_;
 }
 

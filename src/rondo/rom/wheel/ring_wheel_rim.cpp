@@ -64,14 +64,13 @@ void RingWheel::shift_modes() {
     const RingHarmonic& of = harmonics_[h];
     if (of.k > 1) return;
     const Index r = of.squares.size();
-    const Matrix rate = s.push.bottomRows(r) * of.contact.adjoint(),
-                 place = s.push.topRows(r) * of.contact.adjoint();
+    const Matrix rate = settings_.dt * (s.inverse * of.contact.adjoint()), place = s.lever * rate;
     if (of.k == 0) {
       s.by_rate = settings_.theta * (of.turned.adjoint() * rate).transpose();
       s.by_place = settings_.theta * (of.reference.adjoint() * place).transpose();
       continue;
     }
-    s.shift = -0.5 * (s.push * of.translation.conjugate());
+    push_by(s, -0.5 * of.translation.conjugate(), s.shift);
     s.shift_contact = of.contact * s.shift.head(r);
     s.by_rate = settings_.theta * (of.translation.transpose() * rate).adjoint();
     s.by_place = settings_.theta * (of.translation.transpose() * place).adjoint();
@@ -84,10 +83,9 @@ void RingWheel::twist_modes() {
     Modes& s = modes_[h];
     const RingHarmonic& of = harmonics_[h];
     const Index r = of.squares.size();
-    s.work.head(r).noalias() = of.coriolis * s.before.head(r);
-    if (of.k == 0) s.work.head(r) += of.turned;
-    s.work.head(r) *= -1.0;
-    s.twist.noalias() = s.push * s.work.head(r);
+    s.pushed.noalias() = -of.coriolis * s.before.head(r);
+    if (of.k == 0) s.pushed -= of.turned;
+    push_by(s, s.pushed, s.twist);
     s.twist_contact.noalias() = of.contact * s.twist.head(r);
   }
 }
