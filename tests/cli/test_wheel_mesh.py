@@ -32,6 +32,7 @@ class WheelOfAMesh(WheelTest):
         self.assertEqual(summary(out)["wheel_modes"], 40)
         self.assertLess(summary(out)["energy_residual_relative"], 1e-11)
         self.assertEqual(summary(out)["wheel"]["steps_not_converged"], 0)
+        self.assertAlmostEqual(summary(out)["strain_max"] / summary(full)["strain_max"], 1.0, delta=0.1)
         y = mean(history(full), "force_y", since)
         self.assertAlmostEqual(mean(history(out), "force_x", since) / y,
                                mean(history(full), "force_x", since) / y, delta=of_x)
@@ -64,6 +65,12 @@ class WheelOfAMesh(WheelTest):
         out, command = self.interrupted(case, (500, 1100))
         self.assertEqual(run(*command[1:]).returncode, 0)
         self.same_bits(out)
+
+    def test_few_modes_are_warned_of(self):
+        case = case_of("rolling-spokes.toml", end="end = 0.001")
+        self.assertIn("which fewer than 20 do not make up for",
+                      self.wheel("--modes", 3, case=case, out="few")[1].stderr)
+        self.assertNotIn("make up for", self.wheel(case=case, out="many")[1].stderr)
 
     def test_what_it_refuses(self):
         base = case_of("rolling-spokes.toml")

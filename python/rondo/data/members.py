@@ -59,7 +59,7 @@ MEMBERS: dict[str, tuple[str, str, str]] = {
     "regions[].area": ("m2", "m2", "Its undeformed area; not of a 3D wheel"),
     "regions[].volume": ("m3", "m3", "Its undeformed volume, of a 3D wheel"),
     "regions[].mass": ("kg/m", "kg", "Its mass"),
-    "strain_max": ("", "", "Largest |principal strain| of the small-strain law, at the centers of the elements, in the frame of the body. Evaluated every 250 steps, at snapshots at least 100 steps apart, at the start and at the end (theory.md, 2.9), and at each increment of a crush. For rubber: of the symmetric part of ∂u/∂X"),
+    "strain_max": ("", "", "Largest |principal strain| of the small-strain law, at the centers of the elements, in the frame of the body. Evaluated every 250 steps, at snapshots at least 100 steps apart (with --reduced every 25 steps and at all snapshots), at the start and at the end (theory.md, 2.9), and at each increment of a crush. For rubber: of the symmetric part of ∂u/∂X"),
     "strain_max_cell": ("", "", "Cell of the largest strain, a row of /mesh/cells (/mesh/hexahedra of a 3D wheel)"),
     "strain_max_place": ("m", "m", "Middle of the undeformed cell of the largest strain"),
     "strain_max_time": ("s", "s", "Time of the largest strain; in a crush the fraction of the depth, with tables that of the increments"),

@@ -200,9 +200,8 @@ void DynamicAnalysis::start_integrator() {
 /// a row; at most as many as there are reports. A run that is interrupted has a last row of its
 /// own.
 Progress DynamicAnalysis::advance(Recorder& recorder) {
-  const long long next_look = (steps_ / steps_between_looks + 1) * steps_between_looks;
-  const bool may_be_deep =
-      between_nodes_->may_be_deep(last_ ? &last_->frame : nullptr, steps_between_looks);
+  const long long every = looks().steps, next_look = (steps_ / every + 1) * every;
+  const bool may_be_deep = between_nodes_->may_be_deep(last_ ? &last_->frame : nullptr, every);
   const bool whole = may_be_deep || history_->needs_state();  // a row takes the whole state
   const long long next_row =
       whole || history_->needs_boundary() ? history_->next_row() : HistoryPlace::never;

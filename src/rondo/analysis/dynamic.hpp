@@ -82,6 +82,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   void add_depth_between_nodes(dynamics::StepReport& step);
   void take(const dynamics::StepReport& step, const dynamics::State* state, Recorder& recorder);
   void judge(const dynamics::StepReport& step);
+  [[nodiscard]] Looks looks() const noexcept;
   [[nodiscard]] bool is_looked_at() const noexcept;
   void look();
   [[nodiscard]] std::string look_at_rim(const dynamics::StepReport& step);

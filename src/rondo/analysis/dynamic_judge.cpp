@@ -58,9 +58,13 @@ void DynamicAnalysis::warn(std::string warning) {
   warnings_.push_back(std::move(warning));
 }
 
+Looks DynamicAnalysis::looks() const noexcept {
+  return setup_.reduced.empty() ? Looks{} : looks_of_reduced_runs;
+}
+
 bool DynamicAnalysis::is_looked_at() const noexcept {
   const long long before = next_ > 0 ? schedule_.steps[next_ - 1] : -1;
-  return is_look(state_.step, state_.step == next_snapshot(), before);
+  return is_look(looks(), state_.step, state_.step == next_snapshot(), before);
 }
 
 void DynamicAnalysis::look() {

@@ -217,10 +217,11 @@ void demand_same_run(const Checkpoint& k, const RunIdentity& now, const Case& c,
                      const Setup& setup) {
   std::vector<Fault> faults;
   if (k.identity.reduced != now.reduced)
-    faults.push_back(
-        differs("--reduced", in_words(now.reduced),
-                fmt::format("the run to resume is one of {}", in_words(k.identity.reduced)),
-                "the same --reduced, --modes and --reduced-step"));
+    faults.push_back(differs(
+        "--reduced", in_words(now.reduced),
+        fmt::format("the run to resume is one of {}", in_words(k.identity.reduced)),
+        "the options of that run beside --resume: --reduced, and its --modes and --reduced-step "
+        "where it had them"));
   compare_cases(k, c, setup, faults);
   if (faults.empty() && k.identity.mesh_hash != now.mesh_hash)
     faults.push_back(differs(c.section ? "section.file" : "mesh.file",

@@ -19,8 +19,9 @@ struct Strained {
 constexpr JsonMember<Strained> strain_rows[] = {
     {"strain_max", "number", "",
      "Largest |principal strain| of the small-strain law, at the centers of the elements, in the "
-     "frame of the body. Evaluated every 250 steps, at snapshots at least 100 steps apart, at the "
-     "start and at the end ([theory.md](theory.md), 2.9), and at each increment of a crush. For "
+     "frame of the body. Evaluated every 250 steps, at snapshots at least 100 steps apart (with "
+     "--reduced every 25 steps and at all snapshots), at the start and at the end "
+     "([theory.md](theory.md), 2.9), and at each increment of a crush. For "
      "[rubber](rubber.md): of the symmetric part of ∂u/∂X",
      [](const Strained& s) -> Json { return s.largest.found.strain; }},
     {"strain_max_cell", "integer", "",
@@ -52,9 +53,9 @@ std::vector<MemberText> strain_members() {
   return texts_of(strain_rows);
 }
 
-bool is_look(long long step, bool snapshot, long long before) noexcept {
-  if (step % steps_between_looks == 0) return true;
-  const long long every = steps_between_snapshot_looks;
+bool is_look(const Looks& looks, long long step, bool snapshot, long long before) noexcept {
+  if (step % looks.steps == 0) return true;
+  const long long every = looks.snapshots;
   return snapshot && (before < 0 || step / every != before / every);
 }
 

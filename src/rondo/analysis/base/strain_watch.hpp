@@ -15,13 +15,18 @@ namespace rondo::study {
 /// Above it a run says that the law of the material is one of small strains.
 inline constexpr double small_strain = 0.10;
 
-/// A look takes as long as two steps, and one more pair where the state is fetched for it alone:
-/// one every so many steps at the least, and at snapshots that are so far apart.
-inline constexpr long long steps_between_looks = 250, steps_between_snapshot_looks = 100;
+/// A look takes as long as two steps, and one more pair where the state is fetched for it alone.
+struct Looks {
+  long long steps = 250;      ///< between two, at the most
+  long long snapshots = 100;  ///< and one at snapshots that are so many steps apart
+};
+/// Steps of reduced runs are long: their snapshots are all looked at.
+inline constexpr Looks looks_of_reduced_runs{25, 1};
 
 /// It depends on the step and the snapshots alone: a run that goes on looks at the same ones.
 /// @param snapshot one is taken at this step @param before step of the last one; -1: none
-[[nodiscard]] bool is_look(long long step, bool snapshot, long long before) noexcept;
+[[nodiscard]] bool is_look(const Looks& looks, long long step, bool snapshot,
+                           long long before) noexcept;
 
 /// How the time of a look is told: "t = 0.1 s".
 struct TimeWords {

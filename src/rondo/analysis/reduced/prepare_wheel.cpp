@@ -21,6 +21,7 @@ constexpr double longest_step = 4e-4;      ///< chosen without a wish           
 constexpr double fewest_passes = 1.618;    ///< steps in the pass of a sector
 constexpr double beyond_whole = 0.618;     ///< so that nodes are seen at all their phases
 constexpr double steps_in_contact = 20.0;  ///< while a node passes it
+constexpr int few_modes_of_mesh = 20;
 constexpr int most_modes = 40, most_modes_of_tread = 90, fewest_modes = 10;
 constexpr double highest_mode = 1.5;      ///< ω Δt of the modes that are taken
 constexpr double speed_from_rest = 60.0;  ///< that a wheel from rest may come to         [m/s]
@@ -142,6 +143,11 @@ void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
         fmt::format("contact has {:.1f} nodes at the lowest motion.height: forces of fewer than 5 "
                     "nodes depend on where the nodes are; a finer mesh sees more",
                     e.length / e.spacing));
+  if (w.whole && w.n_modes() < few_modes_of_mesh)
+    warn(
+        fmt::format("--modes {}: without equal sectors the inertia of all other modes is left out, "
+                    "which fewer than {} do not make up for; 40 are usual",
+                    w.n_modes(), few_modes_of_mesh));
   if (w.highest() * dt > 2.0)
     warn(
         fmt::format("the highest mode, of {:.5g} rad/s, turns by {:.2g} rad in a step, where 2 are "

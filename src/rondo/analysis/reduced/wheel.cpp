@@ -192,12 +192,15 @@ class WheelAnalysis final : public DynamicAnalysis {
                     std::ranges::all_of(spin.points(), is_first)
               : spin.largest() <= known * (1.0 + 1e-9))
       return;
-    throw case_error(case_, "motion.angular_velocity",
-                     stays ? "the tables of this reduced wheel are for a spin that stays"
-                           : fmt::format("the tables of this reduced wheel are for spins up to "
-                                         "{:.6g} rad/s",
-                                         known),
-                     "a table from the start that reaches the largest spin, e.g. [[0, w], [1, w]]");
+    throw case_error(
+        case_, "motion.angular_velocity",
+        stays ? "the tables of this reduced wheel are for a spin that stays"
+              : fmt::format("the tables of this reduced wheel are for spins up to "
+                            "{:.6g} rad/s",
+                            known),
+        fmt::format("a table of the case from the start that reaches the largest spin, "
+                    "e.g. [[0, {0:.6g}], [1e6, {0:.6g}], [2e6, w]]",
+                    std::abs(first)));
   }
 
   const Case& case_;

@@ -41,6 +41,8 @@ constexpr std::array names{
     FeatureName{has::hati | has::other_scheme, "scheme \"hati\""},
     FeatureName{has::reduced, "reduced model"},
     FeatureName{has::exact_wheel | has::reduced, "reduced wheel of the case"},
+    FeatureName{has::exact_wheel | has::reduced | has::loaded_rim,
+                "reduced wheel on a rim that forces move"},
     FeatureName{has::model_of_runs | has::reduced, "model of rondo reduce"},
 };
 
@@ -181,9 +183,10 @@ constexpr std::array limits{
     Limit{has::three_dimensions, has::reduced, any,
           "reduced models are for plane bodies, not for a wheel in three dimensions"},
     Limit{has::free_bodies, has::reduced, any,
-          "a reduced run is for one constrained disk on the ground, without free bodies"},
+          "a reduced run is for one wheel that its rim holds, on the ground, without free bodies"},
     Limit{has::body_contact, has::reduced, any,
-          "a reduced run is for one constrained disk on the ground, without contact of bodies"},
+          "a reduced run is for one wheel that its rim holds, on the ground, without contact of "
+          "bodies"},
     Limit{has::mesh_file, has::model_of_runs, any,
           "a model of rondo reduce needs equal sectors, which a mesh from a file is not known to "
           "have"},
@@ -191,7 +194,7 @@ constexpr std::array limits{
           "a reduced wheel on a rim that forces move needs equal sectors, which a mesh from a file "
           "is not known to have"},
     Limit{has::pressure, has::reduced, any,
-          "a reduced run is for one constrained disk on the ground, without pressures"},
+          "a reduced run is for one wheel that its rim holds, on the ground, without pressures"},
     Limit{has::sharp_corners, has::reduced, any,
           "a reduced run has contact at nodes only, not at sharp corners"},
     Limit{has::rubber, has::reduced, any,
