@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
 """Reduced wheels made of the case against full runs in time: largest and rms differences of the forces,
-as means over windows of two passes of a sector (2.1 ms), in % of the mean F_y.
+as means over windows of 2.1 ms (two passes of a sector at 33.3 rad/s), in % of the mean F_y.
 
     bench/reduced_windows.py [OPTION of rondo run --reduced...]
 """

@@ -78,7 +78,9 @@ class WheelOfAMesh(WheelTest):
                 (base + "\n[rim]\nmass = 5.0\ninertia = 0.1\nfree = [\"angular_velocity\"]\n",
                  "a rim that forces move needs equal sectors"),
                 (replaced(base, "angular_velocity", "angular_velocity = 2000"),
-                 "above the lowest frequency of the mesh"),
+                 "the softening by the spin exceeds the stiffness"),
+                (replaced(base, "angular_velocity", "angular_velocity = [[0, 1], [0.1, 1236]]"),
+                 "the softening by the spin exceeds the stiffness"),
                 (base + "\n[[load.pressure]]\ncurve = \"liner\"\nvalue = 1e4\n", "pressure")):
             _, done = self.wheel(case=change, out="refused", code=2)
             self.assertIn(said, done.stderr)

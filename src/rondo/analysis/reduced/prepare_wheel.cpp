@@ -21,7 +21,7 @@ constexpr double longest_step = 4e-4;      ///< chosen without a wish           
 constexpr double fewest_passes = 1.618;    ///< steps in the pass of a sector
 constexpr double beyond_whole = 0.618;     ///< so that nodes are seen at all their phases
 constexpr double steps_in_contact = 20.0;  ///< while a node passes it
-constexpr int few_modes_of_mesh = 20;
+constexpr int few_modes_of_mesh = 20, most_modes_of_mesh = 300;
 constexpr int most_modes = 40, most_modes_of_tread = 90, fewest_modes = 10;
 constexpr double highest_mode = 1.5;      ///< ω Δt of the modes that are taken
 constexpr double speed_from_rest = 60.0;  ///< that a wheel from rest may come to         [m/s]
@@ -90,6 +90,10 @@ rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
     if (*options.reduced_modes < 0 || *options.reduced_modes > 100000)
       throw request_error("--modes", std::to_string(*options.reduced_modes),
                           "is no number of modes", "a whole number from 0 to 100000");
+    if (!setup.model.sector && *options.reduced_modes > most_modes_of_mesh)
+      throw request_error("--modes", std::to_string(*options.reduced_modes),
+                          "without equal sectors so many modes take too long to find",
+                          fmt::format("a whole number from 0 to {}", most_modes_of_mesh));
     return {.wanted = static_cast<int>(*options.reduced_modes)};
   }
   const bool tread = setup.model.sector &&
@@ -195,15 +199,18 @@ void make_whole(const Case& c, const RunOptions& options, const rom::KnownSpins&
   wheel.ring.emplace(
       rom::make_ring(*wheel.whole, model.mass, model.reference, model.contact->nodes));
   wheel.model = rom::make_wheel_model(*wheel.ring, modes_of(options, setup), spins, &whole);
-  if (std::ranges::all_of(wheel.model.residuals,
-                          [](const rom::RingResidual& r) { return r.made_static.empty(); }))
+  const double spin = wheel.expected.spin;
+  const auto& harmonics = wheel.model.harmonics;
+  const bool stable = harmonics.empty() || harmonics[0].squares.minCoeff() > spin * spin;
+  if (stable && std::ranges::all_of(wheel.model.residuals, [](const rom::RingResidual& r) {
+        return r.made_static.empty();
+      }))
     return;
-  throw case_error(
-      c, "motion.angular_velocity",
-      fmt::format("the spin of {:.6g} rad/s is above the lowest frequency of the mesh: "
-                  "the wheel has no shape that it could turn in",
-                  wheel.model.largest_spin),
-      "a slower spin, or a stiffer body");
+  throw case_error(c, "motion.angular_velocity",
+                   fmt::format("at {:.6g} rad/s the softening by the spin exceeds the stiffness of "
+                               "the mesh, which has no reduced wheel there",
+                               spin),
+                   "a slower spin, or a stiffer body");
 }
 
 }  // namespace

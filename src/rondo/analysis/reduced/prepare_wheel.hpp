@@ -31,6 +31,10 @@ struct PreparedWheel {
   rom::WheelFigures figures;  ///< filled while it runs
   std::vector<std::string> warnings;  ///< for the user
 
+  PreparedWheel() = default;
+  PreparedWheel(const PreparedWheel&) = delete;  // the ring refers to `whole`
+  PreparedWheel& operator=(const PreparedWheel&) = delete;
+
   [[nodiscard]] int n_modes() const;
   /// Angular frequency of the highest mode [rad/s]
   [[nodiscard]] double highest() const;

@@ -13,6 +13,7 @@ namespace rondo::rom {
 namespace {
 
 constexpr double full_turn = 2.0 * std::numbers::pi;
+constexpr double same_radius = 0.02;  ///< walls of grooves and inner boundaries are farther away
 
 }  // namespace
 
@@ -22,6 +23,7 @@ LeftBehind::LeftBehind(std::span<const Vec2> place) : order_(place.size()), rank
   std::ranges::stable_sort(order_, {}, angle);
   for (std::size_t i = 0; i < order_.size(); ++i) {
     angle_.push_back(angle(order_[i]));
+    radius_.push_back(norm(place[at(order_[i])]));
     rank_[at(order_[i])] = static_cast<int>(i);
   }
   shares_.reserve(2 * place.size());
@@ -30,14 +32,14 @@ LeftBehind::LeftBehind(std::span<const Vec2> place) : order_(place.size()), rank
 void LeftBehind::add(int node, Vec2 force, double turn) {
   const Vec2 own = rotation(-turn) * force;
   const double back = std::remainder(-turn, full_turn);  // from the node, seen by the body
-  const int step = back < 0.0 ? -1 : 1, n = static_cast<int>(order_.size());
-  int near = rank_[at(node)];
+  const int step = back < 0.0 ? -1 : 1, own_rank = rank_[at(node)];
+  int near = own_rank;  // the last one that was passed
   double passed = 0.0;  // from the node to `near`
   while (true) {
-    const int next = (near + step + n) % n;
+    const int next = next_as_far_out(near, step, radius_[at(own_rank)]);
     double gap = step * (angle_[at(next)] - angle_[at(near)]);
     if (gap < 0.0) gap += full_turn;
-    if (passed + gap >= std::abs(back) || next == rank_[at(node)]) {
+    if (passed + gap >= std::abs(back) || next == own_rank) {
       const double share = gap > 0.0 ? std::min(1.0, (std::abs(back) - passed) / gap) : 0.0;
       shares_.push_back({order_[at(near)], (1.0 - share) * own});
       if (share > 0.0) shares_.push_back({order_[at(next)], share * own});
@@ -46,6 +48,14 @@ void LeftBehind::add(int node, Vec2 force, double turn) {
     passed += gap;
     near = next;
   }
+}
+
+/// The next one in the order, of a radius that some node has.
+int LeftBehind::next_as_far_out(int rank, int step, double radius) const {
+  const int n = static_cast<int>(order_.size());
+  do rank = (rank + step + n) % n;
+  while (std::abs(radius_[at(rank)] - radius) > same_radius * radius);
+  return rank;
 }
 
 }  // namespace rondo::rom

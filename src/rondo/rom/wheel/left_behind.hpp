@@ -20,15 +20,18 @@ class LeftBehind {
   };
   void clear() noexcept { shares_.clear(); }
   /// Adds a force that was on a node at the start of the step, in the co-rotating frame then: to
-  /// the two nodes between which its place is at the end. @param turn of the frame in the step
-  /// [rad]
+  /// the two nodes between which its place is at the end, of those as far out as the node itself.
+  /// @param turn of the frame in the step [rad]
   void add(int node, Vec2 force, double turn);
   [[nodiscard]] std::span<const Share> shares() const noexcept { return shares_; }
 
  private:
-  std::vector<int> order_;     ///< (C) nodes by their angle
-  std::vector<double> angle_;  ///< (C) ascending, of these                             [rad]
-  std::vector<int> rank_;      ///< (C) of a node in the order
+  [[nodiscard]] int next_as_far_out(int rank, int step, double radius) const;
+
+  std::vector<int> order_;      ///< (C) nodes by their angle
+  std::vector<double> angle_;   ///< (C) ascending, of these                             [rad]
+  std::vector<double> radius_;  ///< (C) of these                                         [m]
+  std::vector<int> rank_;       ///< (C) of a node in the order
   std::vector<Share> shares_;
 };
 

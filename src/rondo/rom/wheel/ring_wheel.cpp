@@ -192,7 +192,8 @@ void RingWheel::leave_forces(const WheelMotion& m) {
   }
 }
 
-Eigen::Map<const Eigen::MatrixXd> RingWheel::compliance(int lag) const noexcept {
+Eigen::Map<const Eigen::MatrixXd> RingWheel::compliance(int lag) const {
+  RONDO_DEMAND(!near_compliance_);
   const int d = (lag % ring_.n_sectors() + ring_.n_sectors()) % ring_.n_sectors();
   const Index size = ring_.n_contact();
   return {compliance_.data() + d * size * size, size, size};

@@ -111,7 +111,8 @@ class RingWheel {
   /// And the mean velocity in it. @param angle θ in its middle
   void velocity(double angle, std::span<Vec2> v) const;
   /// W[lag]: displacement at the end of a step of contact node i by a force on j, i - j = lag.
-  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> compliance(int lag) const noexcept;
+  /// @pre of a ring of one sector: the spin stays
+  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> compliance(int lag) const;
 
   /// The numbers from which another wheel of this ring, and these settings, resumes bit for bit.
   [[nodiscard]] static std::size_t n_numbers(const Ring& ring, const WheelModel& model) noexcept;

@@ -217,7 +217,7 @@ void RingWheel::write_field(Rows rows, double angle, const Eigen::VectorXd& cons
     for_waves(harmonics_, frame * turn, [&](std::size_t h, Complex wave) {
       u += wave.re * amplitudes[h].real() - wave.im * amplitudes[h].imag();
     });
-    if (is_whole() && !rows.contact)
+    if (model_.residuals.front().by_contact && !rows.contact)
       u += by_contact(filtered);
     else
       for (const int node : active_) {

@@ -29,10 +29,10 @@ fem::BlockCsr softened(const WholeMesh& whole, std::span<const double> mass, dou
 }
 
 /// (rows) of a field on all nodes.
-VectorXd rows_of(const Ring& ring, std::span<const Vec2> field) {
-  VectorXd out(ring.n_rows());
-  for (std::size_t a = 0; a < ring.stiffness.n_local(); ++a) {
-    const Vec2 x = field[ring.stiffness.node(a, 0)];
+VectorXd rows_of(std::span<const int> nodes, std::span<const Vec2> field) {
+  VectorXd out(static_cast<Index>(2 * nodes.size()));
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    const Vec2 x = field[at(nodes[a])];
     out.segment<2>(static_cast<Index>(2 * a)) << x.x, x.y;
   }
   return out;
@@ -43,7 +43,9 @@ class Beyond {
  public:
   Beyond(const Ring& ring, const WholeMesh& whole, std::span<const RingHarmonic> harmonics,
          std::span<const double> mass, double square)
-      : ring_(ring), body_(softened(whole, mass, square), whole.free, nodes_of(ring)) {
+      : rows_(ring.stiffness.nodes),
+        contact_nodes_(nodes_of(ring)),
+        body_(softened(whole, mass, square), whole.free, contact_nodes_) {
     RONDO_DEMAND(harmonics.size() <= 1, harmonics.size());
     if (harmonics.empty()) return;
     shapes_ = harmonics[0].shapes.real();
@@ -65,17 +67,16 @@ class Beyond {
   }
   /// (rows) by forces on all nodes, of which the modes take φᵀ f.
   [[nodiscard]] VectorXd displacement(std::span<const Vec2> force, const VectorXd& on_modes) const {
-    VectorXd u = rows_of(ring_, body_.displacement(force));
+    VectorXd u = rows_of(rows_, body_.displacement(force));
     if (shapes_.size() > 0) u -= shapes_ * softness_.cwiseProduct(on_modes);
     return u;
   }
   /// (rows) by forces on the contact nodes. @param force (2C)
   [[nodiscard]] VectorXd by_contact(const VectorXd& force) const {
     std::vector<Vec2> all(body_.n_nodes());
-    const std::vector<int> nodes = nodes_of(ring_);
-    for (std::size_t c = 0; c < nodes.size(); ++c) {
+    for (std::size_t c = 0; c < contact_nodes_.size(); ++c) {
       const auto row = static_cast<Index>(2 * c);
-      all[at(nodes[c])] = {force[row], force[row + 1]};
+      all[at(contact_nodes_[c])] = {force[row], force[row + 1]};
     }
     return displacement(all, contact_.transpose() * force);
   }
@@ -88,7 +89,7 @@ class Beyond {
     return nodes;
   }
 
-  const Ring& ring_;
+  const std::vector<int> rows_, contact_nodes_;  ///< nodes of the mesh
   statics::Condensation body_;
   Eigen::MatrixXd shapes_, contact_;  ///< (rows, r), (2C, r)
   VectorXd softness_;                 ///< (r) 1/(ω² - s²)
@@ -123,7 +124,7 @@ std::vector<RingHarmonic> whole_modes(const Ring& ring, const WholeMesh& whole,
   if (choice.wanted <= 0) return {};
   const modal::Modes found =
       modal::mesh_modes({whole.mesh, whole.stiffness, mass}, 0.0, choice.wanted);
-  RONDO_DEMAND(found.unstable == 0, found.unstable);
+  if (found.unstable > 0) return {};  // whole_residual() tells
   Index n = 0;
   for (const modal::Mode& mode : found.modes) {
     if (mode.omega > choice.highest && n >= choice.fewest) break;
@@ -135,7 +136,7 @@ std::vector<RingHarmonic> whole_modes(const Ring& ring, const WholeMesh& whole,
   for (Index j = 0; j < n; ++j) {
     const modal::Mode& mode = found.modes[at(j)];
     squares[j] = mode.omega * mode.omega;
-    shapes.col(j) = rows_of(ring, mode.real).cast<std::complex<double>>();
+    shapes.col(j) = rows_of(ring.stiffness.nodes, mode.real).cast<std::complex<double>>();
   }
   return {make_harmonic(ring, 0, std::move(squares), std::move(shapes))};
 }

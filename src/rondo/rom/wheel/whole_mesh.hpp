@@ -19,15 +19,15 @@ struct WholeMesh {
 };
 
 /// K with all free nodes as the rows of one sector. A ring of it works with ring_modes() and
-/// ring_residual() too, which are dense: for small meshes.
+/// ring_residual() too, which are dense.
 [[nodiscard]] fem::SectorStiffness one_sector(const WholeMesh& whole);
 
-/// As ring_modes(). @param ring of one_sector()
+/// As ring_modes(); none where K is not positive definite. @param ring of one_sector()
 [[nodiscard]] std::vector<RingHarmonic> whole_modes(const Ring& ring, const WholeMesh& whole,
                                                     const ModeChoice& choice);
 
-/// As ring_residual(); its form is the static one. Its fields are found by solving.
-/// @throws NumericalError: the spin is beyond the lowest eigenfrequency
+/// As ring_residual(); its form is the static one. Its fields are found by solving. Where K - s²M
+/// is not positive definite there is none: `made_static` is {0}, and all else is empty.
 [[nodiscard]] RingResidual whole_residual(const Ring& ring, const WholeMesh& whole,
                                           std::span<const RingHarmonic> harmonics,
                                           double spin_squared);
