@@ -23,6 +23,8 @@ const std::map<std::string, StepKind> others{
     {"bar-on-wall", StepKind::bodies},
     {"block-on-incline", StepKind::bodies},
     {"bouncing-bar", StepKind::bodies},
+    {"rolling-pitches", StepKind::sparse},
+    {"rolling-spokes", StepKind::sparse},
     {"rubber-roller", StepKind::sparse},
     {"rubber-rolling", StepKind::sparse},
     {"rubber-tyre", StepKind::wheel},
