@@ -92,13 +92,16 @@ class Rim(WheelTest):
         self.same_bits(out)
 
     def test_a_spin_beyond_what_is_known(self):
-        """It outgrows the step, too; in the end it turns too far in a step. Few snapshots: with many it
-        is seen before that strains have turned an element inside out."""
-        _, done = self.wheel("--set", "rim.torque=[[0, 2e5]]", "--set", "output.snapshots=2", case=shipped("wheel-driven", end=0.05))
+        """It outgrows the step, too; in the end it turns too far in a step. Long before that strains have
+        turned an element inside out, which is seen where snapshots are looked at."""
+        torque, few = ("--set", "rim.torque=[[0, 2e5]]"), ("--set", "output.snapshots=2")
+        short = shipped("wheel-driven", end=0.05)
+        _, done = self.wheel(*torque, case=short, code=3, out="looked-at")
+        self.assertIn("is inverted", done.stderr)
+        _, done = self.wheel(*torque, *few, case=short)
         self.assertIn("is extrapolated", done.stderr)
         self.assertIn("steps in the pass of a sector", done.stderr)
-        _, done = self.wheel("--set", "rim.torque=[[0, 2e5]]", "--overwrite", "--set", "output.snapshots=2", code=3,
-                             case=shipped("wheel-driven", end=0.3))
+        _, done = self.wheel(*torque, *few, "--overwrite", code=3, case=shipped("wheel-driven", end=0.3))
         self.assertIn("more than 0.3: differences of positions", done.stderr)
         self.assertIn("--reduced-step of a reduced wheel", done.stderr)
 

@@ -67,7 +67,6 @@ TEST(WholeMesh, TheStaticComplianceIsThatOfTheSectors) {
     }
 }
 
-/// A spin at which the mesh has no shape to turn in is told.
 TEST(WholeMesh, ASpinAboveTheLowestFrequencyHasNoCompliance) {
   const OneBlasThread one;
   const Disk d(3, 16, true);
@@ -83,8 +82,8 @@ struct Row {
 
 class WholeRows : public testing::TestWithParam<Row> {};
 
-/// Of the wheel of ring_wheel_test.cpp; its ring has -22,014 and 190,144 with the same 41 modes and
-/// the static residual.
+/// The disk is that of ring_wheel_test.cpp. As a ring with the same 41 modes and the static
+/// residual it has forces of -22,014 and 190,144 N/m.
 TEST_P(WholeRows, AreMet) {
   const Row row = GetParam();
   const Outcome o =

@@ -24,8 +24,7 @@ constexpr JsonMember<PreparedWheel> wheel_rows[] = {
      [](const PreparedWheel& w) -> Json { return w.highest(); }},
     {"wheel_sector_pass", "number or null", "s",
      "Time in which a sector passes at the largest spin, of a mesh from a file a contact node in "
-     "the "
-     "mean; null: the wheel does not turn",
+     "the mean; null: the wheel does not turn",
      [](const PreparedWheel& w) { return w.expected.pass > 0.0 ? Json(w.expected.pass) : Json(); }},
     {"wheel_full_step", "number", "s", "Step of the full run",
      [](const PreparedWheel& w) -> Json { return w.full_step; }},

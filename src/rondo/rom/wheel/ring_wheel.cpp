@@ -73,8 +73,8 @@ void RingWheel::set_residual(double spin) {
   }
 }
 
-/// The matrices of a harmonic. With h = ½Δt, the midpoint solves [c, -h; hL, c + hD] (y, p) = (y, p
-/// + hf).
+/// Finds the matrices of a harmonic. With h = ½Δt the middle of the step solves
+/// [c, -h; hL, c + hD] (y_m, p_m) = (y, p + hf).
 void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Modes& s) const {
   const double half = 0.5 * settings_.dt;
   s.turn = 1.0 + half * Complexes(0.0, of.k * spin);
@@ -148,7 +148,7 @@ void RingWheel::fill_compliance() {
   }
 }
 
-/// The same of a ring of one sector, between the near nodes alone.
+/// Fills W of a ring of one sector, for the pairs of near nodes alone.
 void RingWheel::fill_near_compliance() {
   const double lag = settings_.stiffness_damping / settings_.dt;
   const Index size = ring_.n_contact(), n = static_cast<Index>(near_.size());
@@ -174,8 +174,8 @@ void RingWheel::fill_near_compliance() {
   }
 }
 
-/// What the forces of the step before do to modes that turn on, were they to stay in space: a mean
-/// over the step that is not in its middle would else be moved on with the nodes.
+/// Finds what the forces of the step before would do to the modes if they stayed in space. Without
+/// it a mean over the step that is not in its middle moves these forces on with the nodes.
 void RingWheel::leave_forces(const WheelMotion& m) {
   left_->clear();
   for (const int node : active_)

@@ -137,7 +137,7 @@ class RingWheel {
     Vector left;             ///< (r) of the forces that stay in space; ring of one sector
     Vector contact, middle;  ///< (2C) φ_c y without new forces, φ_c p in the middle of the step
     Vector pushed, work;     ///< (r), (2r)
-    // Of the step, see fill_step().
+    // fill_step() sets these for a step.
     Complexes turn, lever;  ///< c = 1 + ½Δt iks; ½Δt/c                                         [s]
     double twisted = 0.0;   ///< ṡ                                                     [rad/s²]
     Eigen::VectorXd stiff;  ///< (r) ω² - s²                                              [1/s²]

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/rom/wheel/whole_mesh.hpp"
 
-#include <Eigen/LU>
-#include <algorithm>
-#include <cmath>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
@@ -15,7 +13,7 @@
 namespace rondo::rom {
 namespace {
 
-using Eigen::Index, Eigen::MatrixXcd, Eigen::VectorXcd, Eigen::VectorXd;
+using Eigen::Index, Eigen::MatrixXcd, Eigen::VectorXd;
 
 /// K - s²M.
 fem::BlockCsr softened(const WholeMesh& whole, std::span<const double> mass, double square) {

@@ -22,12 +22,14 @@ struct WholeMesh {
 /// ring_residual() too, which are dense.
 [[nodiscard]] fem::SectorStiffness one_sector(const WholeMesh& whole);
 
-/// As ring_modes(); none where K is not positive definite. @param ring of one_sector()
+/// Finds the modes of a mesh, as ring_modes() finds those of a ring. It returns none where K is not
+/// positive definite. @param ring of one_sector()
 [[nodiscard]] std::vector<RingHarmonic> whole_modes(const Ring& ring, const WholeMesh& whole,
                                                     const ModeChoice& choice);
 
-/// As ring_residual(); its form is the static one. Its fields are found by solving. Where K - s²M
-/// is not positive definite there is none: `made_static` is {0}, and all else is empty.
+/// Finds the static residual of a mesh, which has `by_contact` in place of `fields`. Where K - s²M
+/// is not positive definite a mesh has no residual: `made_static` is then {0}, and all else is
+/// empty.
 [[nodiscard]] RingResidual whole_residual(const Ring& ring, const WholeMesh& whole,
                                           std::span<const RingHarmonic> harmonics,
                                           double spin_squared);

@@ -82,8 +82,9 @@ PlacedCell place(const mesh::Cell& cell, std::span<const Vec2> x, std::span<cons
   return out;
 }
 
-/// Points of the ground in the cell: a quarter of its size apart, of a cell that the initial
-/// displacement stretched many times a part of its diagonal.
+/// Points of the ground in the cell, a quarter of its undeformed size apart. The initial
+/// displacement may stretch a cell without bound: its points are then a 256th of its diagonal
+/// apart, and ground in a thinner cell is not seen.
 std::vector<Vec2> points_in(const contact::Ground& ground, const PlacedCell& cell) {
   Vec2 low = cell.corner[0], high = low;
   for (const Vec2 corner : cell.corners()) {
