@@ -22,7 +22,7 @@ nlohmann::json read_settings(const std::filesystem::path& file) {
   std::ifstream in(file);
   nlohmann::json settings = nlohmann::json::parse(in, nullptr, false);
   if (settings.is_object() && settings["guid"].is_string() && settings["step"].is_number() &&
-      settings["modes"].is_number_integer() && settings["reduced_step"].is_string())
+      settings["modes"].is_number_integer() && settings["reduced_step"].is_number())
     return settings;
   throw FileError(file.string(),
                   "is not there or damaged: fmuResourceLocation must be the folder "

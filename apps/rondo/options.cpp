@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "options.hpp"
 
+#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
+
+#include <string>
 #include <type_traits>
 #include <variant>
 
@@ -22,6 +25,11 @@ void add_option(CLI::App& command, const study::Option& o) {
           return command.add_option(names, *target, help);
       },
       o.target);
+  if (o.words == "--reduced-step")
+    added->check([](const std::string& text) -> std::string {
+      if (text != "midpoint" && text != "explicit") return {};
+      return "a reduced wheel has one scheme: a number of seconds, or no --reduced-step";
+    });
   if (!default_text(o).empty()) added->capture_default_str();
   if (!o.alone.empty())
     added->expected(0, 1)->default_str(std::string(o.alone))->option_text("TEXT");
@@ -62,6 +70,15 @@ void add_telling(CLI::App& command, Telling& tell, const char* quiet) {
   add_json(command, tell);
 }
 
+/// A hidden option of earlier versions: it is accepted and does nothing, and a warning says so.
+void accept_gone(CLI::App& command, const std::string& name, int values, const char* instead) {
+  const auto warn = [name, instead](const CLI::results_t&) {
+    spdlog::warn("{} has gone and is ignored: {}", name, instead);
+    return true;
+  };
+  command.add_option(name, warn)->expected(values)->group("");
+}
+
 }  // namespace
 
 CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell) {
@@ -71,6 +88,9 @@ CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell) {
   add_output(*run, arguments.options.directory,
              "Results directory; if left out, the case's name in the working folder");
   add_options(*run, run_options(arguments.options));
+  accept_gone(*run, "--step-factor", 1,
+              "--reduced-step is the step of a reduced wheel, in seconds");
+  accept_gone(*run, "--snapshots", 1, "snapshots of a reduced wheel are fields");
   run->add_flag("--realtime-factor", arguments.realtime_factor,
                 "Prints the ratio of simulated time to the time that the steps took");
   add_telling(*run, tell, "Prints warnings and errors only");
@@ -98,28 +118,29 @@ CLI::App* add_check(CLI::App& program, RunArguments& arguments, Telling& tell) {
 
 CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) {
   CLI::App* reduce = program.add_subcommand(
-      "reduce", "Makes a reduced model of a rolling disk from the snapshots of runs");
+      "reduce", "Keeps the modes of a reduced wheel in a file, with its matrices and tables");
   reduce
-      ->add_option("run", r.runs,
-                   "Results directories of one disk; friction, speed, height and spin may differ")
+      ->add_option("case", r.sources,
+                   "Case file, for its eigenmodes; or results directories of one disk, for the POD "
+                   "of their displacements")
       ->required();
-  add_output(*reduce, r.output, "File of the reduced model, e.g. model.h5")->required();
+  add_output(*reduce, r.output, "File of the reduced wheel, e.g. wheel.h5")->required();
+  add_settings(*reduce, r.settings,
+               "KEY=VALUE, which overrides a key of the case, e.g. disk.mesh.radial=24; "
+               "repeatable");
   add_options(*reduce, reduce_options(r));
-  reduce
-      ->add_option_function<std::string>(
-          "--validate",
-          [](const std::string&) {
-            throw InputError(Fault{"rondo reduce --validate", 0, 0, "", "",
-                                   "is not part of this command",
-                                   "rondo run CASE --reduced MODEL -o REDUCED, then rondo validate "
-                                   "REDUCED RUN"});
-          })
-      ->group("");  // hidden in the help
+  for (const char* gone : {"--displacement-modes", "--velocity-modes", "--tolerance",
+                           "--velocity-tolerance", "--contact-weight", "--contact-stride",
+                           "--contact-phases", "--contact", "--frame", "--memory"})
+    accept_gone(*reduce, gone, 1,
+                "reduced wheels have exact contact at the nodes; --modes sets their number of "
+                "modes");
+  accept_gone(*reduce, "--no-error-estimate", 0, "rondo run --reduced --estimate estimates errors");
   add_telling(*reduce, tell, "Prints warnings and the results only");
   reduce->footer(
-      "Example:\n  rondo reduce results/mu0 results/mu06 -o model.h5\n"
-      "  rondo run cases/rolling-flat.toml --reduced model.h5 -o results/reduced\n"
-      "  rondo validate results/reduced results/full\n"
+      "Example:\n  rondo reduce cases/rolling-flat.toml --modes 20 -o wheel.h5\n"
+      "  rondo reduce results/mu0 results/mu06 --basis pod -o wheel.h5\n"
+      "  rondo run cases/rolling-flat.toml --reduced wheel.h5 -o results/reduced\n"
       "Use, limits and accuracy: docs/reduced.md.");
   return reduce;
 }

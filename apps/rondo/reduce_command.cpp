@@ -2,6 +2,7 @@
 #include "commands.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <functional>
@@ -14,22 +15,16 @@
 namespace rondo::app {
 namespace {
 
-void print_part(const study::ReducePart& part, double left) {
-  fmt::print("{:<19}{} modes of {} snapshots; they leave {:.2e} of the energy, all modes {:.2e}\n",
-             part.field, part.modes, part.snapshots, part.discarded, left);
-}
-
 void print_report(const study::ReduceRequest& request, const study::ReduceReport& r) {
-  fmt::print("modes              {} for {} dofs\n", r.modes, r.dofs);
-  print_part(r.displacement, r.displacement_left);
-  print_part(r.velocity, r.velocity_left);
-  fmt::print("contact points     {} {} round the disk{}\n", r.contact_points, r.contact,
-             r.contact_step > 0.0 ? fmt::format(", one passed in {:.6g} s", r.contact_step) : "");
-  fmt::print("critical steps     {:.6g} s of the mesh, {:.6g} s of the modes (explicit)\n",
-             r.full_critical_step, r.reduced_critical_step);
-  fmt::print("error estimate     {}\n", study::in_words(r.estimate));
+  fmt::print("modes              {} {} for {} dofs, up to {:.5g} rad/s\n", r.modes,
+             r.basis == "pod" ? "of a POD" : "eigenmodes", r.dofs, r.highest);
+  if (r.snapshots > 0)
+    fmt::print("snapshots          {}; the modes leave out {:.2e} of their energy\n", r.snapshots,
+               r.left);
+  fmt::print("contact nodes      {}, with tables of compliance at {:.5g} rad/s\n", r.contact_nodes,
+             fmt::join(r.spins, ", "));
   fmt::print("time               {:.2f} s\n", r.wall_s);
-  fmt::print("model              {} ({})\n", request.output.string(), readable_bytes(r.file_bytes));
+  fmt::print("wheel              {} ({})\n", request.output.string(), readable_bytes(r.file_bytes));
 }
 
 }  // namespace
@@ -38,7 +33,7 @@ int reduce(study::ReduceRequest request, Telling& tell) {
   if (tell.quiet) spdlog::set_level(spdlog::level::warn);
   request.warn = [](const std::string& text) { spdlog::warn(text); };
   const study::ReduceReport report = [&] {
-    Progress progress("value");
+    Progress progress("snapshot");
     if (!tell.quiet) request.progress = std::ref(progress);
     return study::run_reduce(request);
   }();

@@ -113,11 +113,13 @@ fs::path pod(const std::vector<fs::path>& runs, const fs::path& output, const py
   return report.directory;
 }
 
-void reduce(const std::vector<fs::path>& runs, const fs::path& output, const py::dict& given) {
-  demand_runs(runs);
+void reduce(const std::vector<fs::path>& sources, const fs::path& output, const Settings& settings,
+            const py::dict& given) {
+  demand_runs(sources);
   Call call;
   study::ReduceRequest request;
-  request.runs = runs;
+  request.sources = sources;
+  request.settings = settings;
   request.output = output;
   call.take(given, reduce_options(request));
   request.warn = call.warn();
@@ -156,7 +158,8 @@ void add_commands(py::module_& module) {
   module.def("modes", modes, py::arg("file"), py::arg("settings"), py::arg("directory"),
              py::arg("options"));
   module.def("pod", pod, py::arg("runs"), py::arg("output"), py::arg("options"));
-  module.def("reduce", reduce, py::arg("runs"), py::arg("output"), py::arg("options"));
+  module.def("reduce", reduce, py::arg("sources"), py::arg("output"), py::arg("settings"),
+             py::arg("options"));
   module.def("sweep", sweep, py::arg("study"), py::arg("settings"), py::arg("directory"),
              py::arg("options"));
 }

@@ -30,6 +30,7 @@ from .data.run import open_run as open
 from .data.sweep import Sweep, open_sweep
 from .data.validation import Validation, open_validation
 from .pictures import attach, report
+from .reduced_wheel import ReducedWheel
 from .simulation import Simulation
 from .solution import Solution, crush, solve, steady_rolling
 
@@ -39,7 +40,7 @@ attach()
 del attach, demand, while_loading
 
 __all__ = ["Error", "FileError", "History", "InputError", "Mesh", "Modes", "NewerSchemaError",
-           "NotARunError", "NumericalError", "Paper", "Pod", "Run", "Simulation", "Solution",
-           "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "about", "crush", "fmu",
-           "modes", "open", "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation",
+           "NotARunError", "NumericalError", "Paper", "Pod", "ReducedWheel", "Run", "Simulation",
+           "Solution", "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "about", "crush",
+           "fmu", "modes", "open", "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation",
            "pod", "reduce", "report", "run", "solve", "steady_rolling", "sweep"]

@@ -148,8 +148,7 @@ def _parser() -> argparse.ArgumentParser:
                                "without it, in turn")
     validate.add_argument("-o", "--output", type=output_path, metavar="DIRECTORY",
                           help="Directory for the tables; default REDUCED-validation, beside the first one")
-    validate.add_argument("--model", type=pathlib.Path, metavar="FILE",
-                          help="The reduced model; default the one that the reduced run names")
+    validate.add_argument("--model", type=pathlib.Path, help=argparse.SUPPRESS)  # of earlier versions
 
     validation = add("validation", "Draws the errors of a reduced model's predictions")
     validation.add_argument("directory", type=pathlib.Path,
@@ -208,10 +207,12 @@ def _validate(options: argparse.Namespace) -> None:
 
     if len(options.runs) % 2:
         raise Error("REDUCED FULL: after each reduced run the full one that it is to predict")
+    if options.model:
+        print("rondo: warning: --model is ignored: a reduced run needs no model now", file=sys.stderr)
     pairs = list(zip(options.runs[::2], options.runs[1::2]))
     first = options.runs[0]
     out = options.output or first.with_name(f"{first.resolve().name}-validation")
-    print(text_of(validate(pairs, out, options.from_time, options.to_time, options.model)))
+    print(text_of(validate(pairs, out, options.from_time, options.to_time)))
     print(f"validation  {out}\nfigure      rondo validation {out}")
 
 

@@ -55,7 +55,7 @@ def _command(arguments: list[str], directory: pathlib.Path, allowed: Sequence[in
 
 
 def _words(settings: Mapping[str, Any] | None, options: Mapping[str, Any]) -> list[str]:
-    """Settings and options as the program takes them: step_factor=2.0 as --step-factor 2.0."""
+    """Settings and options as the program takes them: reduced_step=2e-4 as --reduced-step 0.0002."""
     words = [word for setting in settings_of(settings) for word in ("--set", setting)]
     for name, value in options.items():
         if value is not False:
@@ -79,9 +79,8 @@ def _check(outcome: tuple[str, str], directory: pathlib.Path) -> None:
 def run(case: Place, output: Place | None = None, settings: Mapping[str, Any] | None = None, *,
         overwrite: bool = False, resume: bool = False, threads: int | None = None,
         reduced: Place | None = None, modes: int | None = None, estimate: bool = False,
-        step_factor: float | None = None, reduced_step: str | None = None,
-        snapshots: str | None = None,
-        modes_from: Place | None = None, arguments: Sequence[str | os.PathLike[str]] = ()) -> Run:
+        reduced_step: float | None = None, modes_from: Place | None = None,
+        arguments: Sequence[str | os.PathLike[str]] = ()) -> Run:
     """Runs a case in this process (`rondo run`) and opens its results. `output`: results directory;
     by default the case's name in the working folder. `settings`: keys of the case, as
     {"ground.friction": 0.6}. The others are the command's options; with `arguments`, further ones
@@ -128,19 +127,16 @@ def pod(runs: Run | Place | Sequence[Run | Place], output: Place | None = None, 
 
 
 @documented("reduce")
-def reduce(runs: Run | Place | Sequence[Run | Place], output: Place, *,
-           displacement_modes: int | None = None, velocity_modes: int | None = None,
-           tolerance: float | None = None, velocity_tolerance: float | None = None,
-           contact_weight: float | None = None, contact_stride: int | None = None,
-           contact_phases: int | None = None, contact: str | None = None,
-           frame: str | None = None, from_time: float | None = None,
-           to_time: float | None = None, error_estimate: bool = True,
-           memory: str | None = None) -> pathlib.Path:
-    """A reduced model of a disk from the snapshots of runs (`rondo reduce`), made in this process
-    into the file `output`, which run, solve and Simulation take as reduced=."""
+def reduce(source: Run | Place | Sequence[Run | Place], output: Place,
+           settings: Mapping[str, Any] | None = None, *, basis: str | None = None,
+           modes: int | None = None, from_time: float | None = None,
+           to_time: float | None = None) -> pathlib.Path:
+    """The modes, matrices and tables of a reduced wheel (`rondo reduce`), made in this process into
+    the file `output`, which run, solve and Simulation take as reduced=, and ReducedWheel opens.
+    source: a case file, or runs for a POD. settings: keys of the case."""
     options = options_in("reduce", locals())
     file = place_of(output)
-    core().reduce(_directories(runs), file, options)
+    core().reduce(_directories(source), file, settings_of(settings), options)
     return file
 
 

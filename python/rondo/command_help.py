@@ -26,7 +26,8 @@ class CommandParser(argparse.ArgumentParser):
 
     def format_help(self) -> str:
         arguments = [action for action in self._actions if not action.option_strings]
-        options = [action for action in self._actions if action.option_strings]
+        options = [action for action in self._actions
+                   if action.option_strings and action.help != argparse.SUPPRESS]
         names = "".join(f" {action.dest}{'...' if action.nargs == '+' else ''}" for action in arguments)
         text = f"{self.description} \nUsage: {self.prog} [OPTIONS]{names}\n"
         for title, actions in (("Positionals", arguments), ("Options", options)):

@@ -95,15 +95,14 @@ class Simulation:
 
     case: file, or a results directory that is resumed. settings: keys of the case, as
     {"ground.friction": 0.6}. output: results directory, written as by `rondo run`; without it
-    nothing is written, and history has all rows. reduced: a model of `rondo reduce` to run on, or
-    "case" for a reduced wheel that is made of the case."""
+    nothing is written, and history has all rows. reduced: "case" for a reduced wheel that is made of
+    the case, or a file of `rondo reduce` with its modes."""
 
     @documented("run")
     def __init__(self, case: Place, settings: Mapping[str, Any] | None = None,
                  output: Place | None = None, *, threads: int | None = None,
                  overwrite: bool = False, resume: bool = False, reduced: Place | None = None,
-                 modes: int | None = None, step_factor: float | None = None,
-                 reduced_step: str | None = None) -> None:
+                 modes: int | None = None, reduced_step: float | None = None) -> None:
         """Begins a motion, or resumes one."""
         options = options_in("run", locals())
         file = place_of(case)

@@ -132,26 +132,15 @@ class ContactLengths(RunTest):
         self.made(STEADY_WHEEL)
         self.assertGreater(self.look(face_shares, **areas), 1e-3)
 
-    def test_reduced_models(self):
-        """At nodes the history is that of contact.csv; at places that stand still, as near as nodes are."""
-        text = replaced(replaced(self.text, "snapshots", "snapshots = 81"), "circumferential", "circumferential = 120")
-        for friction in (0.2, 0.4):
-            out = self.folder / str(friction)
-            done = run("run", self.case(text), "-o", out, "--set", f"ground.friction={friction}")
-            self.assertEqual(done.returncode, 0, done.stderr)
-        for form, near in (("nodes", 1e-9), ("places", 0.25)):
-            model = self.folder / f"{form}.h5"
-            done = run("reduce", self.folder / "0.2", self.folder / "0.4", "-o", model, "--contact", form)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            done = run("run", self.case(text), "-o", self.out, "--overwrite", "--reduced", model, "--set",
-                       "output.history_interval=0")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.look(self.plane, of_history=False)
-            h, rows = history(self.out), contact(self.out)
-            for time in np.unique(rows["time_s"])[-5:]:
-                row = np.argmin(abs(h["time_s"] - time))
-                self.assertAlmostEqual(h["contact_length_m"][row] / rows["length_m"][rows["time_s"] == time].sum(), 1.0,
-                                       delta=near)
+    def test_a_reduced_wheel(self):
+        done = run("run", self.case(self.text), "-o", self.out, "--reduced", "--set", "output.history_interval=0")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.look(self.plane, of_history=False)
+        h, rows = history(self.out), contact(self.out)
+        for time in np.unique(rows["time_s"])[-5:]:
+            row = np.argmin(abs(h["time_s"] - time))
+            self.assertAlmostEqual(h["contact_length_m"][row] / rows["length_m"][rows["time_s"] == time].sum(), 1.0,
+                                   delta=1e-9)
 
 
 if __name__ == "__main__":

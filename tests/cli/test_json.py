@@ -293,18 +293,19 @@ class OfRuns(JsonTest):
         self.assertIn("results.h5", told["message"])
 
     def test_reduce(self):
-        model = self.folder / "model.h5"
-        found = self.result("reduce", *self.runs, "-o", model, "--displacement-modes", "4",
-                            "--velocity-modes", "4")
-        self.assertEqual((found["model"], found["displacement"]["modes"]), (str(model), 4))
-        self.assertEqual((found["estimate_x"], found["left_out"]), (None, []))
-        self.assertEqual(found["model_bytes"], model.stat().st_size)
+        wheel = self.folder / "wheel.h5"
+        found = self.result("reduce", *self.runs, "-o", wheel, "--modes", "5")
+        self.assertEqual((found["wheel"], found["basis"]), (str(wheel), "pod"))
+        self.assertIn(found["modes"], (5, 6))
+        self.assertEqual((found["snapshots"], found["spins"]), (40, [33.333333]))
+        self.assertEqual(found["wheel_bytes"], wheel.stat().st_size)
+        found = self.result("reduce", self.case(), "-o", wheel, "--modes", "5")
+        self.assertEqual((found["basis"], found["snapshots"], found["energy_left"]), ("eigenmodes", 0, 0.0))
 
     def test_reduce_of_what_is_wrong(self):
         self.answer(2, "reduce", self.folder / "none", "-o", self.folder / "model.h5")
         blocked = self.case("text", "a-file")
-        told = self.answer(4, "reduce", *self.runs, "-o", blocked / "model.h5",
-                           "--displacement-modes", "4", "--velocity-modes", "4")
+        told = self.answer(4, "reduce", *self.runs, "-o", blocked / "model.h5")
         self.assertIn("a-file", told["message"])
 
     def test_interrupted_before_there_is_anything(self):

@@ -121,7 +121,7 @@ class Program(ProgramTest):
                         ["run", ROOT / "cases" / "steady-rolling.toml", "-o", out / "steady"],
                         ["modes", ROOT / "cases" / "modes-annulus.toml", "-o", out / "modes", "--diameters", "2"],
                         ["pod", out / "run", "-o", out / "pod"], ["sweep", study, "-o", out / "sweep"],
-                        ["reduce", out / "run", "-o", model]):
+                        ["reduce", self.case(), "-o", model]):
             done = run(*command)
             self.assertEqual(done.returncode, 0, done.stderr)
         files = sorted(out.rglob("*.json"))

@@ -91,8 +91,8 @@ class Fifos(ProgramTest):
         path = self.fifo(self.out / "contact.csv")
         self.refuses(4, path, "FIFO, not a regular file", "run", self.case(TEXT), "-o", self.out)
 
-    def test_models(self):
-        path = self.fifo(self.folder / "model.h5")
+    def test_a_reduced_wheel(self):
+        path = self.fifo(self.folder / "wheel.h5")
         self.refuses(4, path, "FIFO, not a regular file", "run", self.case(TEXT), "-o", self.out,
                      "--reduced", path)
 

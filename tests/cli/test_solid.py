@@ -420,7 +420,7 @@ class Refusals(SolidTest):
         out = self.of()
         done = run("reduce", out, "-o", self.folder / "model.h5")
         self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("reduced models are plane", done.stderr)
+        self.assertIn("reduced wheels are plane", done.stderr)
 
     def test_plane_bodies_have_no_lateral_direction(self):
         plane = replaced(replaced(replaced(replaced(WHEEL, "width", None), "axial", None),

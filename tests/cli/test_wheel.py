@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""rondo run --reduced without a model: a reduced wheel with exact contact, made of the case."""
+"""rondo run --reduced without a file: a reduced wheel with exact contact, made of the case."""
 import unittest
 
 import h5py
@@ -110,15 +110,14 @@ class Wheel(WheelTest):
 
         refused("no restitution", "ground.restitution=0.5")
         refused("is a law of velocities", 'ground.impact="energy-safe"')
-        refused("not for a wheel in three dimensions",
+        refused("a reduced wheel is plane",
                 case=(ROOT / "cases" / "wheel3d-cornering.toml").read_text())
         refused("there is no ground", case=ROLLING.replace(
             '[ground]\nprofile = "flat"\nfriction = 0.4\n', ""))
         refused("moves in time", case=STEADY)
         refused("is no step of a reduced wheel", options=("--reduced-step", "-1"))
-        refused("is no step of a reduced wheel", options=("--reduced-step", "explicit"))
+        refused("a reduced wheel has one scheme", options=("--reduced-step", "explicit"))
         refused("is no number of modes", options=("--modes", "-3"))
-        refused("--reduced-step, in seconds", options=("--step-factor", "30"))
 
     def test_the_estimate_is_what_other_runs_say(self):
         out, done = self.wheel("--estimate", "--modes", 20, "--reduced-step", "0.0004")

@@ -11,9 +11,10 @@ from program import PROGRAM, ProgramTest, run, summary
 
 
 class WheelTest(ProgramTest):
-    def wheel(self, *arguments, case, code=0, out="out"):
+    def wheel(self, *arguments, case, code=0, out="out", file=None):
         out = self.folder / out
-        done = run("run", self.case(case), "--reduced", "-o", out, *arguments)
+        reduced = ["--reduced"] if file is None else ["--reduced", file]
+        done = run("run", self.case(case), *reduced, "-o", out, *arguments)
         self.assertEqual(done.returncode, code, done.stderr)
         return out, done
 

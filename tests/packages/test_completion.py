@@ -65,10 +65,7 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.ask("pod", "--method", "=", "ts"), {"tsqr"})
         self.assertEqual(self.ask("pod", "--method", "="), {"auto", "direct", "tsqr", "incremental"})
         self.assertLessEqual({"case", "study"}, self.ask("schema", ""))
-        self.assertEqual(self.ask("reduce", "--frame", ""), {"co-rotating", "rectified"})
-        self.assertEqual(self.ask("reduce", "--contact", ""), {"places", "nodes"})
-        self.assertEqual(self.ask("run", "--snapshots", ""), {"fields", "modes"})
-        self.assertEqual(self.ask("run", "--reduced-step", ""), {"midpoint", "explicit"})
+        self.assertEqual(self.ask("reduce", "--basis", ""), {"eigenmodes", "pod"})
         self.assertEqual(self.ask("run", "--threads", ""), set())
 
     def test_files(self):

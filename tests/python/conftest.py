@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 
+import h5py
 import numpy as np
 import pytest
 import sweeps
@@ -114,6 +115,15 @@ def killed(tmp_path_factory):
 def copy(smooth, tmp_path):
     """A copy of the run `smooth` that a test may change."""
     return pathlib.Path(shutil.copytree(smooth, tmp_path / "copy"))
+
+
+def of_modes(directory):
+    """Makes of a run one of an earlier version, of a reduced model with --snapshots modes."""
+    with h5py.File(directory / "results.h5", "r+") as file:
+        for group in ("snapshots", "fields"):
+            if group in file:
+                del file[group]
+        file.create_group("reduced")
 
 
 @pytest.fixture(scope="session")

@@ -79,32 +79,41 @@ def test_run_has_the_bytes_of_the_program(case):
         assert pathlib.Path("mine", name).read_bytes() == pathlib.Path("out", name).read_bytes()
 
 
-def test_reduced_models(case):
+@pytest.mark.parametrize("source, options", [("small.toml", {"modes": 12}),
+                                             ("full", {"modes": 12, "from_time": 0.005})])
+def test_reduced_wheels_of_files(case, source, options):
     rondo.run(case, "full", {"output.snapshots": 100})
-    model = rondo.reduce(["full"], "model.h5", displacement_modes=8, velocity_modes=8)
-    by_program("reduce", "full", "-o", "by-program.h5", "--displacement-modes", 8,
-               "--velocity-modes", 8)
-    by_program("run", case, "-o", "out", "--reduced", "by-program.h5")
-    there, mine = rondo.open("out"), rondo.solve(case, reduced=model)
-    same(mine, there)
-    options = {"reduced": model, "step_factor": 1.5, "reduced_step": "explicit",
-               "snapshots": "modes"}
-    worded = rondo.run(case, "worded", arguments=["--threads", "1"], **options)
-    there = rondo.run(case, "in-process", threads=1, **options)
-    assert pathlib.Path("worded/history.csv").read_bytes() == there.history.path.read_bytes()
-    assert worded.field_names == there.field_names == ["displacement", "velocity"]
-    steps = rondo.Simulation(case, reduced=model, step_factor=2.0)
+    words = [str(word) for name, value in options.items() for word in (f"--{name.removesuffix('_time')}", value)]
+    by_program("reduce", source, "-o", "by-program.h5", *words)
+    wheel = rondo.reduce(source, "mine.h5", **options)
+    assert wheel.read_bytes() == pathlib.Path("by-program.h5").read_bytes()
+    by_program("run", case, "-o", "out", "--reduced", wheel, "--reduced-step", "0.0001")
+    there = rondo.open("out")
+    assert there.info["wheel_basis"] == ("pod" if source == "full" else "eigenmodes")
+    same(rondo.solve(case, reduced=wheel, reduced_step=1e-4), there)
+    worded = rondo.run(case, "worded", reduced=wheel, reduced_step=1e-4, arguments=["--threads", "1"])
+    assert worded.history.path.read_bytes() == there.history.path.read_bytes()
+    steps = rondo.Simulation(case, reduced=wheel)
     steps.advance(10)
     steps.set({"motion.speed": 9.0})
     steps.run()
     pathlib.Path("driven.toml").write_text(steps.case_text)
-    driven = rondo.run("driven.toml", "driven", reduced=model, step_factor=2.0)
+    driven = rondo.run("driven.toml", "driven", reduced=wheel)
     np.testing.assert_array_equal(steps.displacement, driven.displacement[-1])
     assert np.abs(driven.center[-1, 0] - there.center[-1, 0]) > 1e-3
-    with pytest.raises(rondo.InputError, match="keeps no checkpoints"):
-        rondo.Simulation(case, output="x", reduced=model, resume=True)
-    with pytest.raises(rondo.InputError, match="^step_factor = -1: "):
-        rondo.solve(case, reduced=model, step_factor=-1.0)
+
+
+def test_reduced_wheels_that_are_refused(case):
+    rondo.run(case, "full", {"output.snapshots": 100})
+    wheel = rondo.reduce(case, "wheel.h5", {"material.density": 1000.0})
+    for call, said in ((lambda: rondo.reduce("full", "x.h5", {"ground.friction": 0.1}), "is of a case, and a POD is of runs"),
+                       (lambda: rondo.reduce(case, "x.h5", basis="wavelets"), "^basis = wavelets: "),
+                       (lambda: rondo.reduce(case, "x.h5", from_time=0.1), "^from_time = 0.1: "),
+                       (lambda: rondo.reduce([case, case], "x.h5"), "is of one case"),
+                       (lambda: rondo.solve(case, reduced=wheel), "mesh or material"),
+                       (lambda: rondo.solve(case, reduced="case", reduced_step=-1.0), "^reduced_step = -1: ")):
+        with pytest.raises(rondo.InputError, match=said):
+            call()
 
 
 def test_a_reduced_wheel_of_the_case(case):
@@ -167,7 +176,6 @@ def test_modes_pod_and_sweep(case):
     (lambda c: rondo.Simulation(c, threads=-1), rondo.InputError, "threads = -1"),
     (lambda c: rondo.run(c, "x", overwrite=True, resume=True), rondo.InputError, "one of the two"),
     (lambda c: rondo.reduce([], "m.h5"), rondo.InputError, "no run is given"),
-    (lambda c: rondo.reduce("none", "m.h5", contact_phases=17), rondo.InputError, "1 to 16"),
     (lambda c: rondo.modes(c, sweep="1:2"), rondo.InputError, "sweep"),
     (lambda c: rondo.reduce("none", "m.h5"), rondo.Error, "none"),
     (lambda c: rondo.sweep(c, jobs=0), rondo.Error, "jobs = 0"),

@@ -15,8 +15,9 @@ ALLOWED = {  # by the first folder, or the module itself: what it may import bes
     "native": {"data", "options", "studies"}, "options": set(), "about": {"data", "native", "studies"},
     "_core": set(), "matrices": {"_core", "data"},
     "simulation": {"_core", "data", "matrices", "native"}, "solution": {"data", "native", "simulation"},
-    "calls": {"data", "native", "studies"},
-    "__init__": {"about", "calls", "data", "pictures", "interrupts", "needs", "simulation", "solution"},
+    "calls": {"data", "native", "studies"}, "reduced_wheel": {"calls", "data", "native", "simulation"},
+    "__init__": {"about", "calls", "data", "pictures", "interrupts", "needs", "reduced_wheel", "simulation",
+                 "solution"},
     "command_help": set(), "interrupts": {"needs"}, "needs": set(),
     "__main__": {"__init__", "about", "command_help", "interrupts", "needs", "data", "studies", "figures", "reports", "style"},
 }

@@ -40,8 +40,8 @@ def test_help_tells_what_they_mean():
     ({"threads": 0}, r"threads = 0: is out of bounds.*1 to 1024"), ({"threads": True}, r"threads = True: is of a wrong type"),
     ({"threads": "two"}, r"threads = 'two': is of a wrong type \(allowed: a whole number\)"),
     ({"overwrite": True, "resume": True}, "resume.*continues what overwrite would remove.*one of the two"),
-    ({"step_factor": 2.0}, "step_factor = 2.0: is an option of a reduced run.*with reduced = 'case', or a model of rondo.reduce"),
-    ({"snapshots": "modes"}, "snapshots = modes: is an option of a reduced run")])
+    ({"reduced_step": 2e-4}, "reduced_step = 0.0002: is an option of a reduced run.*with reduced = 'case', or a file of rondo.reduce"),
+    ({"modes": 5}, "modes = 5: is an option of a reduced run")])
 def test_what_the_command_line_refuses_is_refused(case, options, said):
     with pytest.raises(rondo.InputError, match=said):
         rondo.run(case, "out", **options)

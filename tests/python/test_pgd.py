@@ -223,6 +223,4 @@ def test_a_pgd_is_no_run_to_the_program(solved, tmp_path):
         assert done.returncode == 2 and "results.h5" in done.stderr, done.stderr
     done = program("pod", solved, "--frame", "pgd")
     assert done.returncode == 2 and "co-rotating | rectified" in done.stderr, done.stderr
-    done = program("reduce", solved, "-o", tmp_path / "m.h5")
-    assert done.returncode == 2 and "crush" in done.stderr, done.stderr
     assert json.loads((pgd / "pod.json").read_text())["method"] == "latin-pgd"

@@ -8,6 +8,7 @@ import warnings
 import h5py
 import numpy as np
 import pytest
+from conftest import of_modes
 
 import rondo
 
@@ -55,6 +56,16 @@ def test_fields(any_run):
     np.testing.assert_array_equal(any_run.field("fields/velocity")[:], turned)
     np.testing.assert_array_equal(any_run.velocity[2], expected["velocity"][2])
     np.testing.assert_array_equal(any_run.displacement[-1], expected["displacement"][-1])
+
+
+def test_snapshots_of_modes_of_an_earlier_version(copy):
+    of_modes(copy)
+    run = rondo.open(copy)
+    assert run.field_names == [] and run.contact is not None and len(run.history["force_y"])
+    for read in (lambda: run.displacement, lambda: run.field("von_mises"), lambda: run.position(0)):
+        with pytest.raises(rondo.Error, match="was written with --snapshots modes of an earlier version: run "
+                                              "the case again"):
+            read()
 
 
 def test_position_is_that_of_the_pictures(any_run):

@@ -275,16 +275,16 @@ def test_what_is_set_obeys_the_rules_of_a_case(case):
     assert "e+308" not in steps.case_text
 
 
-def test_reduced_runs_keep_no_checkpoints_and_know_their_range(case):
-    rondo.run(case, "full", {"output.snapshots": 100})
-    model = rondo.reduce("full", "model.h5", displacement_modes=8, velocity_modes=8)
-    steps = rondo.Simulation(case, output="out", reduced=model)
-    steps.advance(2)
-    with pytest.raises(rondo.InputError, match="save.*keeps no checkpoints"):
+def test_a_reduced_run_is_resumed_with_the_same_bits(case):
+    wheel = {"reduced": "case", "modes": 12}
+    whole = rondo.Simulation(case, **wheel).run()
+    with rondo.Simulation(case, output="out", **wheel) as steps:
+        steps.advance(20)
         steps.save()
-    with pytest.warns(UserWarning, match="motion.speed"):
-        steps.set({"motion.speed": 14.0})
-    for wrong in ({"step_factor": 3.0}, {"reduced_step": "explicit"}):
+    again = rondo.Simulation("out", resume=True, **wheel)
+    assert again.step == 20
+    np.testing.assert_array_equal(again.run().displacement, whole.displacement)
+    for wrong in ({"modes": 12}, {"reduced_step": 1e-4}):
         with pytest.raises(rondo.InputError, match="is an option of a reduced run"):
             rondo.Simulation(case, **wrong)
 

@@ -174,6 +174,6 @@ def test_the_sweep(folder):
     assert np.allclose(figure.axes[0].lines[0].get_xdata(), np.degrees([-0.03, 0.0, 0.03]))
 
 
-def test_reduced_models_are_plane(folder):
-    done = program("reduce", folder / "out", "-o", folder / "model.h5")
+def test_reduced_wheels_are_plane(folder):
+    done = program("reduce", folder / "out", "-o", folder / "wheel.h5")
     assert done.returncode == 2 and "three dimensions" in done.stderr

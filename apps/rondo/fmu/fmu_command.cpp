@@ -49,8 +49,7 @@ std::string guid_of(const std::string& a, const std::string& b) {
 study::Case read_checked(const study::FmuRequest& a) {
   if (a.case_file.extension() == ".h5")
     throw request_error("CASE", a.case_file.string(),
-                        "is a file of a reduced model, which the wheel of an FMU no longer needs: "
-                        "it is made of a case",
+                        "is a file of modes, and the wheel of an FMU is made of a case",
                         "rondo fmu CASE.toml -o wheel.fmu");
   study::Case c = study::read_case(a.case_file, a.settings);
   if (!study::rules_of(c.analysis.kind).in_time)
@@ -71,7 +70,7 @@ int fmu(const study::FmuRequest& a, Telling& tell) {
   const std::string binary = binary_text();
   study::RunOptions options;
   options.reduced_modes = a.modes;
-  if (a.step) options.reduced_step = fmt::format("{:.17g}", *a.step);
+  options.reduced_step = a.step;
   fmu::Wheel wheel(c, options);
   fmu::Values values = fmu::start_values(c, 0.0);
   wheel.begin(values);
@@ -85,7 +84,7 @@ int fmu(const study::FmuRequest& a, Telling& tell) {
   const Json settings = {{"guid", d.guid},
                          {"step", wheel.step()},
                          {"modes", wheel.n_modes()},
-                         {"reduced_step", fmt::format("{:.17g}", wheel.step())},
+                         {"reduced_step", wheel.step()},
                          {"build_record", study::build_record_json()}};
   write_zip(a.output, {{"modelDescription.xml", fmu::model_description(d)},
                        {"binaries/linux64/" + d.identifier + ".so", binary},

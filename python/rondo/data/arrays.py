@@ -50,14 +50,10 @@ class LazyArray:
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> np.ndarray:
         return np.asarray(self[...], dtype=dtype)
 
-    def _parts(self, key: Any) -> list[Any]:
-        """The index of each axis: an int from 0, a slice, or an array of ints from 0."""
-        return [_part(index, size, axis) for axis, (index, size)
-                in enumerate(zip(_expanded(key, self.ndim), self.shape))]
-
     def __getitem__(self, key: Any) -> Any:
         """As numpy's indexing: integers, slices, lists of integers, masks; no new axes."""
-        parts = self._parts(key)
+        parts = [_part(index, size, axis) for axis, (index, size)
+                 in enumerate(zip(_expanded(key, self.ndim), self.shape))]
         pieces, first = _pieces(parts[0])
         ranges = [_range(part) for part in parts[1:]]
         rest: list[Any] = [wanted for wanted, _ in ranges]

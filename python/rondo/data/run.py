@@ -18,7 +18,6 @@ from .files import check_format, opened, read_case, read_json, require
 from .history import History
 from .html import run_html
 from .labelled import STRESS, run_dataset
-from .lifted import Coordinates, LiftedArray
 from .mesh import Mesh, read_mesh
 from .names import frame_named
 from .pod import Pod, Pods
@@ -88,8 +87,7 @@ class Run:
             self._has_contact = "contact" in file
             self._datasets = [f"{group}/{name}" for group in ("snapshots", "fields")
                               if group in file for name in file[group]]
-            # Of a reduced run with --snapshots modes; else none.
-            self._coordinates = Coordinates(self.path, self.mesh, t) if "reduced" in file else None
+            self._of_modes = "reduced" in file  # a reduced run of an earlier version
         self._fields: dict[str, LazyArray] = {}  # those asked for so far
         self.times_velocity: np.ndarray = frame["time_velocity"]
         self.angle: np.ndarray = frame["angle"]
@@ -221,9 +219,7 @@ class Run:
     @property
     def mesh_frequency(self) -> float | None:
         """Columns × spin / 2π: how often a node comes to the ground at the end [Hz]. None of a mesh
-        from a file, of a still disk, and of a reduced run whose contact is at places in space."""
-        if self.info.get("reduced_contact") == "places":
-            return None
+        from a file and of a still disk."""
         return self.columns * abs(self.spin) / (2 * np.pi) or None
 
     @cached_property
@@ -245,8 +241,6 @@ class Run:
     def field_names(self) -> list[str]:
         """What field() takes."""
         names = {name.split("/")[1] for name in self._datasets}
-        if self._coordinates:
-            names |= {"displacement", "velocity"}
         if "cauchy_stress" in names:
             names |= {f"stress_{component}" for component in STRESS}
         return sorted(names)
@@ -257,8 +251,7 @@ class Run:
         "cauchy_stress" (t, n, 6) with stress; "position", "contact_force" (t, n, 3) for pictures:
         these along the fixed axes. Stress is the mean of the cells around a node; that of a probe
         is of its cell alone, and on coarse meshes they differ (docs/results.md).
-        "fields/displacement", "fields/velocity": along the fixed axes. Of a reduced run with
-        --snapshots modes displacement and velocity alone, lifted as they are read."""
+        "fields/displacement", "fields/velocity": along the fixed axes."""
         if name in self._fields:
             return self._fields[name]
         component = None
@@ -270,12 +263,10 @@ class Run:
                 self._fields[name] = LazyArray(self.path, candidate, self.n_snapshots, component)
                 return self._fields[name]
         self.need_snapshots()
-        there = self.field_names
-        if self._coordinates:
-            if name in there:
-                return self._fields.setdefault(name, LiftedArray(self._coordinates, name))
-            there.append("stress and others: the run again with rondo run --snapshots fields")
-        raise unknown(self.directory, "field", name, there)
+        if self._of_modes:
+            raise Error(f"{self.directory}: was written with --snapshots modes of an earlier version: run "
+                        "the case again")
+        raise unknown(self.directory, "field", name, self.field_names)
 
     @property
     def displacement(self) -> LazyArray:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A validation of a reduced model: the directory that `rondo validate` writes."""
+"""A validation of reduced runs: the directory that `rondo validate` writes."""
 from __future__ import annotations
 
 import csv
@@ -26,7 +26,7 @@ def open_validation(path: str | os.PathLike[str]) -> Validation:
 
 
 class Validation:
-    """A row for each run held out, r rows: validation["force_y_error"] is a column (r,). What
+    """A row for each full run that was predicted, r rows: validation["force_y_error"] is a column (r,). What
     there is nothing to measure by is NaN.
 
     directory; info: validation.json; names: (r) of the full runs' directories; units: of each
@@ -53,8 +53,7 @@ class Validation:
                         "validation; rondo validate writes both anew")
 
     def __repr__(self) -> str:
-        return (f"Validation({self.directory}: of {self.info.get('model')} "
-                f"with {', '.join(self.names)})")
+        return f"Validation({self.directory}: {', '.join(self.names)})"
 
     def __getitem__(self, column: str) -> np.ndarray:
         if column not in self._columns:

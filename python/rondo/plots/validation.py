@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A validation of a reduced model: tractions under the axle, full against reduced, and errors."""
+"""A validation of reduced runs: tractions under the axle, full against reduced, and errors."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -42,7 +42,7 @@ ERRORS = {
 
 @style.paper()
 def plot_validation(validation: Validation, names: Sequence[str] = ()) -> Figure:
-    """For each run held out the mean pressure and shear over the angle in space, of the full run
+    """For each full run the mean pressure and shear over the angle in space, of the full run
     and of its prediction; below them the sizes of all errors, on a logarithmic axis. `names`: of
     these runs only."""
     import matplotlib.pyplot as plt

@@ -207,7 +207,7 @@ def _pressure(run: Run, k: int) -> Array:
 
 def _forces(run: Run, chosen: Whole, nodes: Whole) -> dict[str, Any] | None:
     """Forces of contact on the body at its nodes, along the fixed axes; None where nothing may be
-    touched, or the run has no fields (rondo run --snapshots modes)."""
+    touched."""
     if "contact_force" not in run.field_names or not nodes.size:
         return None
     place = np.full(run.mesh.n_nodes, -1)

@@ -84,8 +84,9 @@ def body_html(document: Document, run: Run, name: str = "body", budget: int | No
     html = document.viewer(name, found, f"{run.title}: the deformed body in time")
     if left_out:
         html += note(left_out)
-    missing = _missing(run)
-    return html + (note(missing) if missing else "")
+    if "von_mises" not in run.field_names:
+        html += note("Not in these results: stress (the case with output.stress = true).")
+    return html
 
 
 def _why_none(run: Run) -> str:
@@ -93,16 +94,6 @@ def _why_none(run: Run) -> str:
         return ("output.snapshots was 0. Run the case again with snapshots: "
                 "rondo run case.toml --set output.snapshots=200 -o DIRECTORY")
     return f"the run ({run.status}) has written no snapshot yet; make the report again later."
-
-
-def _missing(run: Run) -> str:
-    lacks = []
-    if "von_mises" not in run.field_names:
-        lacks.append("stress (the case with output.stress = true"
-                     + (", run with --snapshots fields)" if run.info.get("reduced_model") else ")"))
-    if run.contact is not None and "contact_force" not in run.field_names:
-        lacks.append("arrows of the contact forces (rondo run --snapshots fields)")
-    return f"Not in these results: {'; '.join(lacks)}." if lacks else ""
 
 
 def _pictures(run: Run) -> str:

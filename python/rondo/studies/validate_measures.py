@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the validation of a reduced model measures with: fields in the fixed frame, errors of sums
+"""What the validation of reduced runs measures with: fields in the fixed frame, errors of sums
 of squares, mean tractions over the angle in space (docs/reduced.md, 10)."""
 from __future__ import annotations
 
 import math
-import pathlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,7 +11,6 @@ from functools import cached_property
 import numpy as np
 
 from ..data.errors import Error
-from ..data.files import opened
 from ..data.run import Run
 
 BLOCK = 32  # snapshots at once
@@ -34,31 +32,8 @@ class Window:
         return (times >= self.begin) & (times <= self.end)
 
 
-@dataclass(frozen=True)
-class Model:
-    """A reduced model of n nodes, r modes."""
-
-    path: pathlib.Path
-    basis: np.ndarray  # (r, n) x + iy, orthonormal in the mass [kg^(-1/2)]
-    mass: np.ndarray   # (n,) [kg/m]
-    turning: bool      # its modes are of the co-rotating frame
-    runs: list[str]    # that it was built from, as they were named
-
-
-def read_model(path: pathlib.Path) -> Model:
-    with opened(path) as file:
-        form = str(file.attrs.get("format", ""))
-        if not form.startswith("rondo reduced model"):
-            raise Error(f'{path}: is no reduced model (its format is "{form}"); rondo reduce '
-                        "writes one")
-        return Model(path, file["model/basis"][:] @ np.array([1, 1j]), file["mesh/mass"][:],
-                     str(file.attrs["frame"]) == "turning",
-                     str(file.attrs["runs"]).splitlines())
-
-
 class Field:
-    """The displacement or the velocity of a run, in its own frame and moved to the fixed one
-    (docs/theory.md, 7.3)."""
+    """The displacement or the velocity of a run, moved to the fixed frame (docs/theory.md, 7.3)."""
 
     def __init__(self, run: Run, name: str) -> None:
         of_velocity = name == "velocity"
@@ -67,23 +42,18 @@ class Field:
         self._values = run.field(name)
         sector, within = run.mesh.sector, run.mesh.sector_node
         if sector is None or within is None:
-            raise Error(f"{run.directory}: its mesh has no equal sectors, so nothing was reduced")
+            raise Error(f"{run.directory}: its mesh has no equal sectors, round which fields could turn")
         self._order = np.lexsort((sector, within))
         self._sectors = int(sector.max()) + 1
 
-    def turning(self, snapshots: slice) -> np.ndarray:
-        """(t, n) x + iy"""
-        values: np.ndarray = self._values[snapshots] @ np.array([1, 1j])
-        return values
-
     def fixed(self, snapshots: slice) -> np.ndarray:
-        """(t, n) rectified: a picture that stands still in space stands still here."""
+        """(t, n) x + iy, rectified: a picture that stands still in space stands still here."""
         n = self._sectors
         polar = np.exp(2j * np.pi * np.arange(n) / n)  # radial and tangential parts are what moves
         k = np.fft.fftfreq(n, 1 / n)
         turned = np.exp(-1j * k * self._angle[snapshots, None])
         turned[:, np.abs(k) == n / 2] = 1  # the highest stays where it is
-        values = self.turning(snapshots)
+        values: np.ndarray = self._values[snapshots] @ np.array([1, 1j])
         rings = values[:, self._order].reshape(len(values), -1, n) / polar
         moved = np.fft.ifft(np.fft.fft(rings, axis=2) * turned[:, None], axis=2) * polar
         values[:, self._order] = moved.reshape(values.shape)
@@ -102,43 +72,32 @@ class Field:
 
 @dataclass(frozen=True)
 class FieldErrors:
-    left: float   # √(share of the energy that the modes leave out)
-    error: float  # of the prediction
-    mean: float   # of the means over the window
+    error: float   # of the prediction
+    mean: float    # of the means over the window
     compared: int  # snapshots
 
 
-def field_errors(model: Model, window: Window, full: Run, reduced: Run, name: str) -> FieldErrors:
-    """What the modes leave of each snapshot of the window, and what the prediction misses of those
-    that lie between two of its own. Norms are those of the mass."""
-    mine, theirs = Field(full, name), Field(reduced, name)
-    energy = left = difference = compared_energy = 0.0
-    sums = np.zeros((2, len(model.mass)), dtype=complex)
-    compared = 0
-    for block in _blocks(window.holds(mine.time)):
-        field = mine.fixed(block)
-        own = mine.turning(block) if model.turning else field
-        norms = _energies(model, field)
-        inside = ((own * model.mass) @ model.basis.conj().T).real  # (t, r)
-        energy += norms.sum()
-        left += np.maximum(0.0, norms - (inside ** 2).sum(axis=1)).sum()
-        time = mine.time[block]
-        known = (time >= theirs.time[0]) & (time <= theirs.time[-1])
-        if not known.any():
-            continue
-        field, predicted = field[known], theirs.at(time[known])
-        difference += _energies(model, predicted - field).sum()
-        compared_energy += norms[known].sum()
+def field_errors(window: Window, full: Run, reduced: Run, name: str) -> FieldErrors:
+    """What the prediction misses of the snapshots of the window that lie between two of its own.
+    Norms are those of the mass. NaN on a mesh without equal sectors: there is nothing to turn by."""
+    if full.mesh.sector is None:
+        return FieldErrors(math.nan, math.nan, 0)
+    mine, theirs, mass = Field(full, name), Field(reduced, name), full.mesh.mass
+    energy = difference = 0.0
+    sums = np.zeros((2, len(mass)), dtype=complex)
+    known = window.holds(mine.time) & (mine.time >= theirs.time[0]) & (mine.time <= theirs.time[-1])
+    for block in _blocks(known):
+        field, predicted = mine.fixed(block), theirs.at(mine.time[block])
+        energy += _energy(mass, field)
+        difference += _energy(mass, predicted - field)
         sums += field.sum(axis=0), predicted.sum(axis=0)
-        compared += len(field)
-    means = share_of(*(float(_energies(model, s[None])[0]) for s in (sums[1] - sums[0], sums[0])))
-    return FieldErrors(math.sqrt(share_of(left, energy)),
-                       math.sqrt(share_of(difference, compared_energy)), math.sqrt(means), compared)
+    means = share_of(_energy(mass, sums[1] - sums[0]), _energy(mass, sums[0]))
+    return FieldErrors(math.sqrt(share_of(difference, energy)), math.sqrt(means), int(known.sum()))
 
 
-def _energies(model: Model, fields: np.ndarray) -> np.ndarray:
-    squares: np.ndarray = (fields.real ** 2 + fields.imag ** 2) @ model.mass
-    return squares
+def _energy(mass: np.ndarray, fields: np.ndarray) -> float:
+    """Of one field or of several together."""
+    return float(((fields.real ** 2 + fields.imag ** 2) @ mass).sum())
 
 
 def _blocks(wanted: np.ndarray) -> Iterator[slice]:
@@ -191,7 +150,7 @@ class Means:
         if not strictly.any():
             raise Error(f"{self._history.path}: no row lies in the window, {window.begin:.9g} to "
                         f"{window.end:.9g} s; a longer window (--from, --to), or a prediction with "
-                        "a smaller --step-factor")
+                        "a smaller --reduced-step")
         end = min(window.end, time[-1])
         self._rows = np.flatnonzero((start >= window.begin) & (time <= end * (1 + 1e-12)))
         self._length = (time - start)[self._rows]

@@ -161,7 +161,7 @@ long long DynamicAnalysis::next_snapshot() const noexcept {
 
 /// Takes the initial fields of the setup, which are not needed twice.
 Progress DynamicAnalysis::begin(Recorder& recorder) {
-  history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{}, reported_length());
+  history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{});
   bounds_ = {energy_residual_bound(setup_), largest_strain_energy(setup_),
              impact_cure(setup_.model), guards_impacts(),
              unit_of("J/m", setup_.model.solid.has_value())};
@@ -223,7 +223,6 @@ Progress DynamicAnalysis::advance(Recorder& recorder) {
 }
 
 void DynamicAnalysis::add_depth_between_nodes(dynamics::StepReport& step) {
-  complete(state_);
   step.contact.penetration = std::max(step.contact.penetration, between_nodes_->depth(state_));
 }
 
@@ -247,7 +246,6 @@ void DynamicAnalysis::record_state(Recorder& recorder) {
   const bool looked_at = is_looked_at();
   record_snapshot(recorder);
   if (!looked_at) return;
-  complete(state_);
   look();
 }
 
@@ -256,7 +254,7 @@ void DynamicAnalysis::record_snapshot(Recorder& recorder) {
   const std::string beyond = beyond_files(setup_, state_);
   if (beyond.empty()) {
     ++next_;
-    add_series(state_, fill_snapshot(setup_, state_, recorder.next_snapshot()));
+    fill_snapshot(setup_, state_, recorder.next_snapshot());
     return recorder.add_snapshot();
   }
   if (!trouble_)  // else that is why
@@ -298,7 +296,6 @@ std::vector<double> DynamicAnalysis::last_row() {
 /// a run that goes on later has not looked there.
 void DynamicAnalysis::close() {
   dynamics::StepReport beyond;
-  complete(state_);
   integrator_->advance({&beyond, 1});
   balance_ = beyond.balance;
   judge(beyond);

@@ -61,16 +61,8 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   [[nodiscard]] Setup& own_setup() noexcept { return setup_; }
   /// The law sees velocities alone. Gaps in it push bodies out of the ground, which does work.
   [[nodiscard]] virtual bool guards_impacts() const noexcept { return true; }
-  /// Which boundary the integrator measures the contact length of its reports on.
-  [[nodiscard]] virtual History::Length reported_length() const noexcept {
-    return History::Length::undeformed;
-  }
   /// Which step it makes, in words.
   [[nodiscard]] virtual std::string told_integrator() const;
-  /// Fills the fields of the state after the last step, where the integrator left some out.
-  virtual void complete(dynamics::State& /*state*/) {}
-  /// Adds the values of the plan's series to a snapshot of the state.
-  virtual void add_series(const dynamics::State& /*state*/, Snapshot& /*snapshot*/) {}
   /// While it runs, or at its end.
   void warn(std::string warning);
   /// Plans the snapshots by the step: at the start, and again when the step was chosen anew.

@@ -53,12 +53,11 @@ void DynamicAnalysis::warn_of_no_contact() {
 
 void DynamicAnalysis::pause_at(long long step) {
   pause_ = step;
-  since_pause_.emplace(case_, setup_, never_due(), reported_length());
+  since_pause_.emplace(case_, setup_, never_due());
 }
 
 const dynamics::State* DynamicAnalysis::state() {
   if (state_.step != steps_ || !integrator_ || (from_ && !last_)) return nullptr;
-  if (last_) complete(state_);
   return &state_;
 }
 

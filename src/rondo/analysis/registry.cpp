@@ -11,7 +11,6 @@
 #include "rondo/analysis/figures/crush_figures.hpp"
 #include "rondo/analysis/figures/dynamic_figures.hpp"
 #include "rondo/analysis/figures/steady_figures.hpp"
-#include "rondo/analysis/reduced/reduced.hpp"
 #include "rondo/analysis/reduced/wheel.hpp"
 #include "rondo/analysis/steady/steady.hpp"
 
@@ -66,8 +65,7 @@ void refuse_modes(const Case& c, const RunOptions& options) {
 
 std::unique_ptr<Analysis> make_analysis(const Case& c, const RunOptions& options) {
   refuse_modes(c, options);
-  if (options.reduced.empty()) return type_of(c).make(c, options);
-  return options.reduced == wheel_of_case ? make_wheel(c, options) : make_reduced(c, options);
+  return options.reduced.empty() ? type_of(c).make(c, options) : make_wheel(c, options);
 }
 
 CheckReport check_case(const Case& c, const CheckOptions& options) {

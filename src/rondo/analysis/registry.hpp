@@ -24,7 +24,7 @@ struct AnalysisType {
 
 [[nodiscard]] const AnalysisType& type_of(const Case& c) noexcept;
 
-/// The analysis of the case, or that of its reduced model where the options name one. Case and
+/// The analysis of the case, or of its reduced wheel where the options ask for one. Case and
 /// options must outlive it. @throws InputError, FileError
 [[nodiscard]] std::unique_ptr<Analysis> make_analysis(const Case& c, const RunOptions& options);
 

@@ -16,12 +16,6 @@
 namespace rondo::io {
 namespace {
 
-/// Whether there are fields of all nodes at some snapshot.
-template <class Counts>
-bool has_fields(const Counts& c) noexcept {
-  return c.modes == 0 && c.times > 0;
-}
-
 template <class Counts>
 XdmfSeries series_of(const mesh::Mesh& mesh, const Counts& c) {
   XdmfSeries s;
@@ -83,7 +77,7 @@ Results::Counts Results::counts_of(const ResultsLayout& layout) noexcept {
   const mesh::Mesh& m = *layout.mesh;
   const bool contact = layout.contact && !m.boundary.empty();
   return {m.n_nodes(), m.boundary.size(), layout.n_snapshots, layout.components,
-          contact,     layout.stress,     layout.modes.count, m.is_solid()};
+          contact,     layout.stress,     m.is_solid()};
 }
 
 /// Size of the index of results.h5: the descriptions of the datasets, and an entry for each row.
@@ -121,7 +115,7 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
   file_.set_attribute("/", "format", "rondo results 1");
   file_.set_attribute("/", "analysis", words_.analysis);
   write_mesh(file_, *layout.mesh, layout.mass);
-  if (has_fields(c_)) write_vtk_cells(file_, *layout.mesh);
+  if (c_.times > 0) write_vtk_cells(file_, *layout.mesh);
   if (!layout.mass_dynamic.empty())
     file_.write("/mesh/mass_dynamic", {c_.nodes}, layout.mass_dynamic,
                 {"kg/m", "mass of each node with which it moves: 0 at contact nodes"});
@@ -132,11 +126,10 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
                  "a node moves in the fixed frame; -1: in the co-rotating frame"});
   if (c_.times > 0) {
     create_frame();
-    if (c_.modes == 0) create_snapshots();
+    create_snapshots();
     create_contact();
-    if (c_.modes == 0) create_fields();
+    create_fields();
     create_series();
-    if (c_.modes > 0) write_modes(layout.modes);
     reserve();
   }
   if (kept) {
@@ -147,7 +140,7 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
   // From here on the file exists and is complete at any moment.
   file_.flush();
   replace_file(unfinished_.path, directory_ / results_name);
-  if (c_.modes == 0) begin_shown(*layout.mesh);
+  begin_shown(*layout.mesh);
 }
 
 /// Labels shown fields with the texts of their datasets, in the order shown in fields.vtkhdf.
@@ -173,7 +166,7 @@ XdmfSeries Results::labelled(XdmfSeries series) const {
 void Results::begin_shown(const mesh::Mesh& mesh) {
   std::vector<double> times = d_.time ? d_.time.read<double>() : std::vector<double>();
   times.resize(written_);
-  if (has_fields(c_))
+  if (c_.times > 0)
     vtkhdf_ = std::make_unique<Vtkhdf>(directory_ / "fields.vtkhdf", labelled(series_of(mesh, c_)),
                                        times);
   xdmf_ = std::make_unique<Xdmf>(directory_ / "fields.xdmf", series_of(mesh, c_), std::move(times));
@@ -259,7 +252,7 @@ void Results::write_contact(const SnapshotFields& fields) {
     forces_[at(boundary_[k])] = rounded(fields.contact_force_fixed[k]);
     put(k, fields.contact_force[k]);
   }
-  if (c_.modes == 0) row(d_.field_force, forces_);
+  row(d_.field_force, forces_);
   row(d_.force, of_candidates_);
   for (std::size_t k = 0; k < c_.candidates; ++k) put(k, fields.contact_force[k] / extent[k]);
   row(d_.traction, of_candidates_);
@@ -277,8 +270,8 @@ void Results::write_series(std::span<const double> values) {
 /// The time is written last: if it is a number, the snapshot is complete.
 void Results::write(const Snapshot& s, const SnapshotFields& fields) {
   check(s, fields);
-  if (c_.modes == 0) write_fields(s);
-  if (c_.modes == 0 && c_.stress) write_stress(s, fields);
+  write_fields(s);
+  if (c_.stress) write_stress(s, fields);
   if (c_.contact) write_contact(fields);
   write_series(s.series);
   const Vec2 center = s.center.plane();
@@ -331,14 +324,12 @@ std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   constexpr std::size_t real = 8, single = 4;
   const std::size_t fields =
       2 * c.components * real + (9U + (c.contact ? 3U : 0U) + (c.stress ? 7U : 0U)) * single;
-  const std::size_t node = c.modes == 0 ? fields : 0;
   const std::size_t candidate = c.contact ? 2 * c.components * real : 0;
   std::size_t frame = (c.solid ? 7 : 6) * real;
   for (const Series& s : layout.series) frame += s.components * real;
-  const std::size_t shown = has_fields(c) ? vtk_cells_bytes(*layout.mesh) : 0;
+  const std::size_t shown = c.times > 0 ? vtk_cells_bytes(*layout.mesh) : 0;
   return index_bytes(c) + mesh_bytes(*layout.mesh) + shown + layout.free_body.size() * sizeof(int) +
-         layout.modes.basis.size() * real +
-         c.times * (frame + c.nodes * node + c.candidates * candidate);
+         c.times * (frame + c.nodes * fields + c.candidates * candidate);
 }
 
 }  // namespace rondo::io

@@ -48,13 +48,6 @@ struct ResultsWords {
   std::string force = "impulse of the step over its length";
 };
 
-/// The modes from which fields are computed, if the snapshots hold reduced coordinates (a series).
-struct ReducedModes {
-  std::span<const double> basis;  ///< (count, n, 2) mode after mode, x, y node after node
-  std::size_t count = 0;          ///< 0: snapshots are fields of all nodes
-  std::string frame;              ///< "rectified" or "turning"
-};
-
 struct ResultsLayout {
   const mesh::Mesh* mesh = nullptr;
   std::span<const double> mass;  ///< (n) lumped mass per unit thickness [kg/m]; solid: mass [kg]
@@ -68,8 +61,6 @@ struct ResultsLayout {
   double camber = 0.0;         ///< for a solid mesh, inclination of the ground    [rad]
   ResultsWords words = {};
   std::vector<Series> series = {};
-  ReducedModes modes =
-      {};  ///< if given: no /snapshots, /fields, stress, fields.xdmf, fields.vtkhdf
   std::span<const double> mass_dynamic{};  ///< (n) mass used in the motion; empty: `mass` [kg/m]
 };
 
@@ -117,7 +108,6 @@ class Results {
   struct Counts {
     std::size_t nodes, candidates, times, components;
     bool contact, stress;
-    std::size_t modes;  ///< 0: fields of all nodes
     bool solid;
   };
   [[nodiscard]] static Counts counts_of(const ResultsLayout& layout) noexcept;
@@ -131,7 +121,6 @@ class Results {
   void create_contact();
   void create_fields();
   void create_series();
-  void write_modes(const ReducedModes& modes);
   void reserve();
   void resize(std::size_t rows);
   void check(const Snapshot& s, const SnapshotFields& fields) const;

@@ -115,15 +115,6 @@ void Results::create_fields() {
             "xx, xy, xz, yy, yz, zz"});
 }
 
-/// Written once, so that the directory is usable without the model's file.
-void Results::write_modes(const ReducedModes& modes) {
-  file_.write("/reduced/modes", {modes.count, c_.nodes, 2}, modes.basis,
-              {"kg^(-1/2)",
-               "modes Φ of the reduced model, node: x, y, in the frame that the attribute `frame` "
-               "names; u = T(-angle) Φᵀ q where that is rectified, Φᵀ q where it is turning"});
-  file_.set_attribute("/reduced/modes", "frame", modes.frame);
-}
-
 void Results::create_series() {
   for (std::size_t k = 0; k < series_.size(); ++k) {
     h5::Shape shape = {c_.times};

@@ -128,8 +128,8 @@ void RunReader::read_times() {
 void RunReader::open_snapshots() {
   if (file_.contains("/reduced/modes"))
     refuse(directory_,
-           "holds snapshots of modes (rondo run --snapshots modes), which are read in Python only",
-           "the same run with --snapshots fields");
+           "holds snapshots of modes, which an earlier version wrote (rondo run --snapshots modes)",
+           "the same case run again");
   const std::size_t n_components = mesh_.is_solid() ? 3 : 2;
   const auto open = [&](const char* name, std::size_t points, h5::Dataset& dataset) {
     if (file_.contains(name)) dataset = file_.dataset(name, {n_planned_, points, n_components});

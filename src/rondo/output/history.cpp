@@ -25,7 +25,7 @@ double rolling_radius(const Case& c, const Setup& setup) {
 
 }  // namespace
 
-History::History(const Case& c, const Setup& setup, const HistoryPlace& place, Length reported)
+History::History(const Case& c, const Setup& setup, const HistoryPlace& place)
     : case_(c),
       setup_(setup),
       dt_(setup.model.dt),
@@ -42,8 +42,7 @@ History::History(const Case& c, const Setup& setup, const HistoryPlace& place, L
                place.steps, place.done);
   RONDO_DEMAND(setup.probes.size() == c.output.probes.size(), setup.probes.size(),
                c.output.probes.size());
-  const bool touches = setup.model.contact || setup.model.surfaces;
-  if (touches && reported == Length::undeformed)
+  if (setup.model.contact || setup.model.surfaces)
     boundary_ = std::make_shared<const mesh::DeformedBoundary>(setup.mesh);
 }
 

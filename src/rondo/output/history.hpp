@@ -32,14 +32,8 @@ struct HistoryPlace {
 
 class History {
  public:
-  /// How the contact length in a step's report was measured.
-  enum class Length {
-    undeformed,  ///< with undeformed edges: a row measures it with the state
-    deformed,    ///< with deformed edges, as required in a row
-  };
   /// c.output.history_interval 0: a row per step. Case and setup must outlive the object.
-  History(const Case& c, const Setup& setup, const HistoryPlace& place = {},
-          Length reported = Length::undeformed);
+  History(const Case& c, const Setup& setup, const HistoryPlace& place = {});
   [[nodiscard]] const HistoryPlace& place() const noexcept { return at_; }
   [[nodiscard]] std::vector<ColumnLabel> columns() const;
   /// Called at every step in order; appends a row if one is due.
@@ -71,7 +65,7 @@ class History {
   double dt_, interval_;
   double radius_ = 0.0;  ///< of the rolling body; 0: nothing rolls                       [m]
   HistoryFeatures features_;
-  std::shared_ptr<const mesh::DeformedBoundary> boundary_;  ///< null: reports include the length
+  std::shared_ptr<const mesh::DeformedBoundary> boundary_;  ///< null: nothing touches
   HistoryPlace at_;
 };
 

@@ -31,13 +31,11 @@ struct RunOptions {
   std::function<void(const std::string&)> warn;  ///< receives warnings; may be empty
   SharedBody* shared = nullptr;                  ///< see build()
   bool keeps_checkpoint = true;                  ///< of its end, once it has finished
-  /// Reduced model to use; wheel_of_case: one made of the case; empty: the mesh.
+  /// Reduced wheel: a file of rondo reduce; wheel_of_case: made of the case; empty: the mesh.
   std::filesystem::path reduced;
-  std::optional<long long> reduced_modes;    ///< of a wheel of the case; none: chosen
-  double step_factor = 20.0;                 ///< reduced: its step / step of the full run
-  std::string reduced_step = "midpoint";     ///< reduced: or "explicit"; or a number [s]
-  bool reduced_estimate = false;             ///< of a wheel of the case: of its errors
-  std::string reduced_snapshots = "fields";  ///< reduced: or "modes", fields computed on reading
+  std::optional<long long> reduced_modes;  ///< of a wheel made of the case; none: chosen
+  std::optional<double> reduced_step;      ///< of a reduced wheel; none: chosen            [s]
+  bool reduced_estimate = false;           ///< of its errors
   std::filesystem::path modes_from;  ///< run whose modes start a crush by LATIN-PGD; or empty
   std::string modes_told;            ///< its name in run.json; empty: modes_from
 };

@@ -94,12 +94,6 @@ void Rectifier::set_phases(double theta) {
     phase_[k] = 2 * k == n_ ? Complex{share, 0.0} : share * rotation(-harmonic(k) * theta);
 }
 
-void Rectifier::set_rates() {
-  const double share = 1.0 / static_cast<double>(n_);
-  for (std::size_t k = 0; k < n_; ++k)
-    phase_[k] = 2 * k == n_ ? Complex{} : Complex{0.0, -share * harmonic(k)};
-}
-
 void Rectifier::move_by_harmonics(std::span<Vec2> ring) {
   std::copy(ring.begin(), ring.end(), work_.begin());
   fftw_execute(forward_);
@@ -159,12 +153,6 @@ void Rectifier::apply(double theta, std::span<double> values) {
     else
       std::rotate(ring.begin(), ring.end() - sectors, ring.end());
   }
-}
-
-void Rectifier::differentiate(std::span<Vec2> values) {
-  RONDO_DEMAND(shift_ == Shift::fourier, n_);
-  set_rates();
-  move(values, [&](std::span<Vec2> ring) { move_by_harmonics(ring); });
 }
 
 }  // namespace rondo::pod

@@ -58,14 +58,9 @@ class Rectifier {
   /// @param values (n_rings * n_sectors) ring after ring
   void apply(double theta, std::span<double> values);
 
-  /// D, the generator of T: dT/dθ = D T, harmonic k times -ik, Nyquist's times 0. It is skew in the
-  /// M product and commutes with T, J and K (docs/theory.md, 7.3). @pre Shift::fourier
-  void differentiate(std::span<Vec2> values);
-
  private:
   [[nodiscard]] double harmonic(std::size_t k) const noexcept;
   void set_phases(double theta);
-  void set_rates();
   void move_by_harmonics(std::span<Vec2> ring);
   void move_by_harmonics(std::span<double> ring);
   [[nodiscard]] std::ptrdiff_t whole_sectors(double angle) const noexcept;

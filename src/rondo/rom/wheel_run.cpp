@@ -29,18 +29,13 @@ WheelSettings settings_of(const dynamics::Model& model) {
 
 }  // namespace
 
-Ring ring_of(const dynamics::Model& model) {
-  RONDO_DEMAND(model.sector && model.contact);
-  return make_ring(*model.sector, model.mass, model.reference, model.contact->nodes);
-}
-
 /// One table for a spin that stays; else three between 0 and the largest, where a polynomial in s²
 /// errs least (Chebyshev).
-WheelModel make_wheel_model(const Ring& ring, const ModeChoice& modes, const KnownSpins& spins,
-                            const WholeMesh* whole) {
+WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonics,
+                            const KnownSpins& spins, const WholeMesh* whole) {
   const OneBlasThread one;
   WheelModel wheel;
-  wheel.harmonics = whole ? whole_modes(ring, *whole, modes) : ring_modes(ring, modes);
+  wheel.harmonics = std::move(harmonics);
   for (const Complex x : ring.place) wheel.radius = std::max(wheel.radius, std::hypot(x.re, x.im));
   const auto residual = [&](double square) {
     return whole ? whole_residual(ring, *whole, wheel.harmonics, square)

@@ -25,8 +25,6 @@ struct WheelFigures {
   double wall_s = 0.0, slowest_step_s = 0.0;
 };
 
-/// @param model with `sector` and contact nodes without mass: its masses are 0 at contact nodes
-[[nodiscard]] Ring ring_of(const dynamics::Model& model);
 /// Spins up to which the residual of a wheel is to be known [rad/s].
 struct KnownSpins {
   double least = 0.0;
@@ -34,7 +32,7 @@ struct KnownSpins {
   bool change = false;  ///< false: the spin is always `least`, or its opposite
 };
 /// @param whole of a ring of one sector (whole_mesh.hpp); of others null
-[[nodiscard]] WheelModel make_wheel_model(const Ring& ring, const ModeChoice& modes,
+[[nodiscard]] WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonics,
                                           const KnownSpins& spins,
                                           const WholeMesh* whole = nullptr);
 

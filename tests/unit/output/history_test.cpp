@@ -58,8 +58,6 @@ TEST(History, EveryStepIsARowWhereNoIntervalIsGiven) {
   EXPECT_EQ(history.next_row(), 4);
   EXPECT_TRUE(history.needs_boundary()) << "the contact length of a row";
   EXPECT_FALSE(history.needs_state()) << "no probe";
-  const History reduced(b.c, b.setup, {}, History::Length::deformed);
-  EXPECT_FALSE(reduced.needs_boundary()) << "its contact length is of the report";
 }
 
 TEST(History, TheContactLengthIsThatOfTheDeformedBoundary) {
@@ -75,12 +73,10 @@ TEST(History, TheContactLengthIsThatOfTheDeformedBoundary) {
     state.active.push_back(contact);
     step.contact.length += b.setup.mesh.tributary[k];
   }
-  History history(b.c, b.setup), deformed(b.c, b.setup, {}, History::Length::deformed);
-  std::vector<double> row, blind, reported;
+  History history(b.c, b.setup);
+  std::vector<double> row, blind;
   history.observe(step, &state, row);
   EXPECT_NEAR(value(history.columns(), row, "contact_length_m"), 1.1 * step.contact.length, 1e-15);
-  deformed.observe(step, nullptr, reported);
-  EXPECT_EQ(value(history.columns(), reported, "contact_length_m"), step.contact.length);
   history.observe(step_of(b, 2, 1.0), nullptr, blind);
   EXPECT_EQ(value(history.columns(), blind, "contact_length_m"), 0.0) << "nothing touches";
 }

@@ -41,7 +41,7 @@ struct OnRim {
     built.model.mass = mass;
     built.model.dt = 2e-4;
     ring.emplace(make_ring(sector, mass, built.model.reference, built.mesh.boundary));
-    wheel = make_wheel_model(*ring, {.wanted = 20}, {33.0, 66.0, true});
+    wheel = make_wheel_model(*ring, ring_modes(*ring, {.wanted = 20}), {33.0, 66.0, true});
   }
   [[nodiscard]] WheelSettings settings() const {
     const dynamics::Model& m = built.model;

@@ -31,7 +31,6 @@ std::size_t contact_csv_bytes(const RecordPlan& plan) {
 }
 
 std::size_t xdmf_bytes(const io::ResultsLayout& layout) {
-  if (layout.modes.count > 0) return 0;
   const std::size_t fields = 4 + (layout.contact ? 1 : 0) + (layout.stress ? 6 : 0);
   return fields * bytes_of_a_field * layout.n_snapshots;
 }

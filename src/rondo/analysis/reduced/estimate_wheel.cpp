@@ -17,6 +17,10 @@ namespace {
 /// Start of the means, over the whole time.
 constexpr double window = 0.75;
 
+/// A mean F_x that is a smaller share of F_y is a difference of larger forces: no error is told by
+/// it.
+constexpr double least_share = 1e-3;
+
 struct Means {
   double x = 0.0, y = 0.0;  ///< force of the ground                                     [N/m]
   double friction = 0.0;    ///< power that friction takes                               [W/m]
@@ -63,10 +67,11 @@ ForceErrors WheelEstimate::larger() const noexcept {
 
 WheelEstimate estimate_wheel(const Case& c, const RunOptions& options, double step, int n_modes) {
   RunOptions own = options;
-  own.reduced_modes = n_modes;
-  own.reduced_step = fmt::format("{:.17g}", step);
+  if (own.reduced == wheel_of_case) own.reduced_modes = n_modes;
+  own.reduced_step = step;
   RunOptions finer = own, richer = own;
-  finer.reduced_step = fmt::format("{:.17g}", 0.5 * step);
+  finer.reduced_step = 0.5 * step;
+  richer.reduced = wheel_of_case;
   richer.reduced_modes = n_modes > 0 ? 2 * n_modes : 10;
   WheelEstimate e;
   std::array<Means, 3> means;

@@ -2,13 +2,22 @@
 /// @file  How far off the forces of a reduced wheel may be, without a full run (docs/reduced.md,
 /// 0): the wheel is run again with half the step, and with twice the modes.
 #pragma once
+#include <limits>
 #include <string>
 
-#include "rondo/analysis/error_estimate.hpp"
 #include "rondo/case/case.hpp"
 #include "rondo/output/run_options.hpp"
 
 namespace rondo::study {
+
+/// Errors of means of forces over the mean vertical force, and of what is often small beside it,
+/// over itself.
+struct ForceErrors {
+  double x = 0.0, y = 0.0;
+  /// NaN: there is next to none of it, |F_x| below a thousandth of F_y or no friction.
+  double x_of_itself = std::numeric_limits<double>::quiet_NaN();
+  double friction_power = std::numeric_limits<double>::quiet_NaN();
+};
 
 struct WheelEstimate {
   std::string none;  ///< why there is none; empty: there is one
@@ -20,6 +29,7 @@ struct WheelEstimate {
   [[nodiscard]] ForceErrors larger() const noexcept;
 };
 
+/// With modes of a file, the run with twice the modes takes eigenmodes.
 /// @param options of the run, whose step and number of modes are as given
 /// @param step [s] and n_modes of the run
 [[nodiscard]] WheelEstimate estimate_wheel(const Case& c, const RunOptions& options, double step,

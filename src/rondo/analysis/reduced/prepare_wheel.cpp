@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/elements/combinations.hpp"
 #include "rondo/case/case_source.hpp"
+#include "rondo/core/process_wide.hpp"
 #include "rondo/fem/contact_mass.hpp"
 
 namespace rondo::study {
@@ -57,16 +57,12 @@ ExpectedContact expected(const Case& c, bool led, const Setup& setup) {
 
 /// The step that is asked for, else one that sees contact and the nodes that pass it.
 double step_of(const RunOptions& options, const ExpectedContact& e) {
-  const std::string& wish = options.reduced_step;
-  if (wish != "midpoint") {
-    double step = 0.0;
-    const auto [end, error] = std::from_chars(wish.data(), wish.data() + wish.size(), step);
-    if (error != std::errc() || end != wish.data() + wish.size() || !(step > 0.0) ||
-        !std::isfinite(step))
-      throw request_error("--reduced-step", wish,
-                          "is no step of a reduced wheel that is made of the case",
-                          "a number of seconds above 0, e.g. 0.0004; or no --reduced-step");
-    return step;
+  if (options.reduced_step) {
+    if (*options.reduced_step > 0.0 && std::isfinite(*options.reduced_step))
+      return *options.reduced_step;
+    throw request_error("--reduced-step", fmt::format("{:.9g}", *options.reduced_step),
+                        "is no step of a reduced wheel",
+                        "a number of seconds above 0, e.g. 0.0004; or no --reduced-step");
   }
   double step = longest_step;
   if (e.speed > 0.0 && e.length > 0.0)
@@ -103,20 +99,10 @@ rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
           .fewest = fewest_modes};
 }
 
-void refuse(const Case& c, const RunOptions& options, const Setup& setup) {
-  if (options.step_factor != RunOptions().step_factor)
-    throw request_error("--step-factor", fmt::format("{:.9g}", options.step_factor),
-                        "is of the step of a model, not of a wheel that is made of the case",
-                        "--reduced-step, in seconds");
-  if (options.reduced_snapshots != "fields")
-    throw request_error("--snapshots", options.reduced_snapshots,
-                        "a reduced wheel that is made of the case has snapshots of fields",
-                        "fields");
-  refuse_combinations(c, setup.model, dynamics::has::reduced | dynamics::has::exact_wheel);
+void refuse(const Case& c, const Setup& setup) {
+  refuse_combinations(c, setup.model, dynamics::has::reduced);
   if (!c.ground)
-    throw case_error(c, "ground",
-                     "a reduced wheel of the case is one of exact contact, and there "
-                     "is no ground",
+    throw case_error(c, "ground", "a reduced wheel is one of exact contact, and there is no ground",
                      "a [ground]; or the full run, without --reduced");
 }
 
@@ -175,30 +161,12 @@ void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
                       e.spin, r.made_static.front(), r.made_static.size()));
 }
 
-}  // namespace
-
-int PreparedWheel::n_modes() const {
-  return rom::count_modes(model.harmonics);
+rom::WholeMesh whole_of(const Setup& setup) {
+  return {setup.mesh, setup.model.stiffness, setup.model.free};
 }
 
-double PreparedWheel::highest() const {
-  double most = 0.0;
-  for (const rom::RingHarmonic& h : model.harmonics)
-    most = std::max(most, h.squares.size() > 0 ? std::sqrt(h.squares.maxCoeff()) : 0.0);
-  return most;
-}
-
-namespace {
-
-/// A wheel of a mesh without equal sectors.
-void make_whole(const Case& c, const RunOptions& options, const rom::KnownSpins& spins,
-                const Setup& setup, PreparedWheel& wheel) {
-  const dynamics::Model& model = setup.model;
-  const rom::WholeMesh whole{setup.mesh, model.stiffness, model.free};
-  wheel.whole = rom::one_sector(whole);
-  wheel.ring.emplace(
-      rom::make_ring(*wheel.whole, model.mass, model.reference, model.contact->nodes));
-  wheel.model = rom::make_wheel_model(*wheel.ring, modes_of(options, setup), spins, &whole);
+/// A mesh without equal sectors has no convected form to leave out of.
+void refuse_soft_mesh(const Case& c, const PreparedWheel& wheel) {
   const double spin = wheel.expected.spin;
   const auto& harmonics = wheel.model.harmonics;
   const bool stable = harmonics.empty() || harmonics[0].squares.minCoeff() > spin * spin;
@@ -213,27 +181,76 @@ void make_whole(const Case& c, const RunOptions& options, const rom::KnownSpins&
                    "a slower spin, or a stiffer body");
 }
 
+/// The modes of the file that is named, else those of the case.
+std::vector<rom::RingHarmonic> harmonics_of(const Case& c, const RunOptions& options,
+                                            const Setup& setup, PreparedWheel& wheel) {
+  if (options.reduced.empty() || options.reduced == wheel_of_case) {
+    const rom::ModeChoice choice = modes_of(options, setup);
+    return wheel.whole ? rom::whole_modes(*wheel.ring, whole_of(setup), choice)
+                       : rom::ring_modes(*wheel.ring, choice);
+  }
+  if (options.reduced_modes)
+    throw request_error(
+        "--modes", std::to_string(*options.reduced_modes),
+        "is of modes that are found in the run, not of those of a file",
+        "rondo reduce CASE.toml --modes N -o wheel.h5; or --reduced without a file");
+  WheelFile file = read_wheel_file(options.reduced, c, setup, *wheel.ring);
+  wheel.basis = file.basis;
+  wheel.file = options.reduced.string();
+  return std::move(file.harmonics);
+}
+
 }  // namespace
 
-void prepare_wheel(const Case& c, const RunOptions& options, std::optional<double> led,
-                   Setup& setup, PreparedWheel& wheel) {
-  refuse(c, options, setup);
+int PreparedWheel::n_modes() const {
+  return rom::count_modes(model.harmonics);
+}
+
+double PreparedWheel::highest() const {
+  double most = 0.0;
+  for (const rom::RingHarmonic& h : model.harmonics)
+    most = std::max(most, h.squares.size() > 0 ? std::sqrt(h.squares.maxCoeff()) : 0.0);
+  return most;
+}
+
+void begin_wheel(const Case& c, const RunOptions& options, std::optional<double> led, Setup& setup,
+                 PreparedWheel& wheel) {
+  refuse(c, setup);
   move_masses(c, setup);
   wheel.full_step = setup.model.dt;
   wheel.expected = expected(c, led.has_value(), setup);
   setup.model.dt = step_of(options, wheel.expected);
   setup.n_steps = count_steps(c, setup.model.dt);
+  const dynamics::Model& model = setup.model;
+  if (!model.sector) wheel.whole = rom::one_sector(whole_of(setup));
+  wheel.ring.emplace(rom::make_ring(wheel.whole ? *wheel.whole : *model.sector, model.mass,
+                                    model.reference, model.contact->nodes));
+}
+
+void complete_wheel(const Case& c, std::optional<double> led,
+                    std::vector<rom::RingHarmonic> harmonics, Setup& setup, PreparedWheel& wheel) {
   const rom::KnownSpins spins = spins_of(c, led, wheel.expected.spin, radius_of(setup));
-  if (setup.model.sector) {
-    wheel.ring.emplace(rom::ring_of(setup.model));
-    wheel.model = rom::make_wheel_model(*wheel.ring, modes_of(options, setup), spins);
+  if (wheel.whole) {
+    const rom::WholeMesh whole = whole_of(setup);
+    wheel.model = rom::make_wheel_model(*wheel.ring, std::move(harmonics), spins, &whole);
+    refuse_soft_mesh(c, wheel);
   } else {
-    make_whole(c, options, spins, setup, wheel);
+    wheel.model = rom::make_wheel_model(*wheel.ring, std::move(harmonics), spins);
   }
-  setup.reduced = fmt::format("a reduced wheel of {} modes with a step of {:.17g} s",
-                              wheel.n_modes(), setup.model.dt);
+  const std::string of_pod = wheel.basis == WheelBasis::pod
+                                 ? fmt::format(" of a POD up to {:.17g} rad/s", wheel.highest())
+                                 : std::string();
+  setup.reduced = fmt::format("a reduced wheel of {} modes{} with a step of {:.17g} s",
+                              wheel.n_modes(), of_pod, setup.model.dt);
   setup.saved_numbers = rom::WheelRun::n_numbers(setup.model, *wheel.ring, wheel.model);
   warn_of(c, setup, led.has_value(), wheel);
+}
+
+void prepare_wheel(const Case& c, const RunOptions& options, std::optional<double> led,
+                   Setup& setup, PreparedWheel& wheel) {
+  const OneBlasThread one;
+  begin_wheel(c, options, led, setup, wheel);
+  complete_wheel(c, led, harmonics_of(c, options, setup, wheel), setup, wheel);
 }
 
 }  // namespace rondo::study

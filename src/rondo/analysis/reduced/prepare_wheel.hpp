@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  A reduced wheel with exact contact, made of a case (docs/reduced.md): step, modes and
-/// tables.
+/// @file  A reduced wheel with exact contact (docs/reduced.md): step, modes and tables of a case.
 #pragma once
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/reduced/wheel_file.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/output/run_options.hpp"
 #include "rondo/rom/wheel_run.hpp"
@@ -26,6 +26,8 @@ struct PreparedWheel {
   std::optional<fem::SectorStiffness> whole;  ///< of a mesh without equal sectors
   std::optional<rom::Ring> ring;              ///< of this or of the setup's sector
   rom::WheelModel model;
+  WheelBasis basis = WheelBasis::eigenmodes;
+  std::string file;  ///< of its modes; empty: none
   ExpectedContact expected;
   double full_step = 0.0;     ///< step of the full run                                       [s]
   rom::WheelFigures figures;  ///< filled while it runs
@@ -44,9 +46,18 @@ struct PreparedWheel {
   [[nodiscard]] double passes(double dt) const { return expected.pass / dt; }
 };
 
-/// Gives the setup the masses and the step of a reduced wheel. The setup must stay where it is.
+/// Gives the setup the masses and the step of a reduced wheel, and finds its ring. The setup must
+/// stay where it is.
 /// @param led the spin comes from outside while the wheel runs, up to this [rad/s]
 /// @throws InputError: what a reduced wheel cannot do, or options that do not go with it
+void begin_wheel(const Case& c, const RunOptions& options, std::optional<double> led, Setup& setup,
+                 PreparedWheel& wheel);
+
+/// The tables of these modes. @pre begin_wheel()
+void complete_wheel(const Case& c, std::optional<double> led,
+                    std::vector<rom::RingHarmonic> harmonics, Setup& setup, PreparedWheel& wheel);
+
+/// Both, with the modes that the options ask for. @throws FileError, InputError: of a file of them
 void prepare_wheel(const Case& c, const RunOptions& options, std::optional<double> led,
                    Setup& setup, PreparedWheel& wheel);
 

@@ -10,7 +10,6 @@
 
 #include "rondo/analysis/dynamic.hpp"
 #include "rondo/analysis/reduced/estimate_wheel.hpp"
-#include "rondo/analysis/reduced/known_error.hpp"
 #include "rondo/analysis/reduced/prepare_wheel.hpp"
 #include "rondo/case/case_source.hpp"
 
@@ -18,8 +17,12 @@ namespace rondo::study {
 namespace {
 
 constexpr JsonMember<PreparedWheel> wheel_rows[] = {
-    {"wheel_modes", "integer", "", "Number of modes of a reduced wheel made of the case",
+    {"wheel_modes", "integer", "", "Number of modes of a reduced wheel",
      [](const PreparedWheel& w) -> Json { return w.n_modes(); }},
+    {"wheel_basis", "string", "", "What its modes are: \"eigenmodes\" or \"pod\"",
+     [](const PreparedWheel& w) -> Json { return name_of(w.basis); }},
+    {"wheel_file", "string", "", "File of its modes (`rondo reduce`)",
+     [](const PreparedWheel& w) { return w.file.empty() ? absent() : Json(as_utf8(w.file)); }},
     {"wheel_highest_mode", "number", "rad/s", "Angular frequency of its highest mode",
      [](const PreparedWheel& w) -> Json { return w.highest(); }},
     {"wheel_sector_pass", "number or null", "s",
@@ -60,10 +63,15 @@ constexpr JsonMember<WheelEnd> effort_rows[] = {
      [](const WheelEnd& e) -> Json { return e.f.not_converged; }},
 };
 constexpr JsonMember<WheelEnd> wheel_end_rows[] = {
-    {"wheel", "object", "", "Effort of the steps of a reduced wheel made of the case",
+    {"wheel", "object", "", "Effort of the steps of a reduced wheel",
      [](const WheelEnd& e) { return object_of(effort_rows, e); },
      [] { return texts_of(effort_rows); }},
 };
+
+/// Null where there is next to none of what the error is of.
+Json known(double error) {
+  return std::isnan(error) ? Json() : Json(error);
+}
 
 constexpr JsonMember<WheelEstimate> wheel_estimate_rows[] = {
     {"force_x", "number", "",
@@ -83,7 +91,7 @@ constexpr JsonMember<WheelEstimate> wheel_estimate_rows[] = {
 };
 constexpr JsonMember<WheelEstimate> wheel_estimate_member[] = {
     {"wheel_estimate", "object", "",
-     "Of a reduced wheel made of the case, with --estimate: changes of means over the last quarter",
+     "Of a reduced wheel, with --estimate: changes of means over the last quarter",
      [](const WheelEstimate& e) {
        return e.none.empty() ? object_of(wheel_estimate_rows, e) : absent();
      },
@@ -211,7 +219,7 @@ class WheelAnalysis final : public DynamicAnalysis {
 
 std::unique_ptr<Analysis> make_wheel(const Case& c, const RunOptions& options) {
   if (c.analysis.kind != AnalysisKind::dynamic)
-    throw case_error(c, "analysis.kind", "a reduced wheel of the case moves in time",
+    throw case_error(c, "analysis.kind", "a reduced wheel moves in time",
                      "\"dynamic\"; or this analysis of the mesh, without --reduced");
   return std::make_unique<WheelAnalysis>(c, options);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  `rondo run --reduced` without a model: a reduced wheel with exact contact, made of the
-/// case itself (docs/reduced.md).
+/// @file  `rondo run --reduced`: a reduced wheel with exact contact (docs/reduced.md).
 #pragma once
 #include <memory>
 

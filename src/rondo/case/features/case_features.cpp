@@ -77,11 +77,6 @@ constexpr std::array rows{
                 [](const Case& c) { return c.time.scheme == Scheme::hati; }},
     CaseFeature{has::reduced, "analysis.kind", "the full run, without --reduced",
                 [](const Case&) { return false; }},
-    CaseFeature{has::model_of_runs, "analysis.kind", "--reduced without a model; or the full run",
-                [](const Case&) { return false; }},
-    CaseFeature{has::exact_wheel, "analysis.kind",
-                "--reduced with a model of rondo reduce; or the full run",
-                [](const Case&) { return false; }},
 };
 
 }  // namespace

@@ -39,11 +39,8 @@ constexpr std::array names{
     FeatureName{has::plane_stress, "plane stress"},
     FeatureName{has::other_scheme, "scheme other than \"symplectic\""},
     FeatureName{has::hati | has::other_scheme, "scheme \"hati\""},
-    FeatureName{has::reduced, "reduced model"},
-    FeatureName{has::exact_wheel | has::reduced, "reduced wheel of the case"},
-    FeatureName{has::exact_wheel | has::reduced | has::loaded_rim,
-                "reduced wheel on a rim that forces move"},
-    FeatureName{has::model_of_runs | has::reduced, "model of rondo reduce"},
+    FeatureName{has::reduced, "reduced wheel"},
+    FeatureName{has::reduced | has::loaded_rim, "reduced wheel on a rim that forces move"},
 };
 
 constexpr std::array steps{
@@ -95,7 +92,7 @@ constexpr std::array limits{
           "the step takes one coefficient of friction for all contacts"},
     Limit{has::hati, 0, plane, "the scheme \"hati\" has a step of its own"},
     Limit{has::other_scheme, 0, fused, "a scheme other than \"symplectic\" needs the general step"},
-    Limit{has::reduced, 0, ~bit(StepKind::reduced), "a reduced model has a step of its own"},
+    Limit{has::reduced, 0, ~bit(StepKind::reduced), "a reduced wheel has a step of its own"},
     // What no step supports ----------------------------------------------------------------------
     Limit{has::free_bodies, has::three_dimensions, any,
           "a wheel in three dimensions is held by its rim"},
@@ -179,18 +176,15 @@ constexpr std::array limits{
     Limit{has::stress_stiffening, has::rubber, any, "rubber at finite strain includes it"},
     Limit{has::other_scheme, has::rubber, any, "rubber needs the scheme \"symplectic\""},
     Limit{has::hati, has::own_material, any, "the scheme \"hati\" needs linear materials"},
-    // What a reduced model does not support -----------------------------------------------------
+    // What a reduced wheel does not support -----------------------------------------------------
     Limit{has::three_dimensions, has::reduced, any,
-          "reduced models are for plane bodies, not for a wheel in three dimensions"},
+          "a reduced wheel is plane, and this one is in three dimensions"},
     Limit{has::free_bodies, has::reduced, any,
           "a reduced run is for one wheel that its rim holds, on the ground, without free bodies"},
     Limit{has::body_contact, has::reduced, any,
           "a reduced run is for one wheel that its rim holds, on the ground, without contact of "
           "bodies"},
-    Limit{has::mesh_file, has::model_of_runs, any,
-          "a model of rondo reduce needs equal sectors, which a mesh from a file is not known to "
-          "have"},
-    Limit{has::mesh_file, has::exact_wheel | has::loaded_rim, any,
+    Limit{has::mesh_file, has::reduced | has::loaded_rim, any,
           "a reduced wheel on a rim that forces move needs equal sectors, which a mesh from a file "
           "is not known to have"},
     Limit{has::pressure, has::reduced, any,
@@ -204,13 +198,13 @@ constexpr std::array limits{
     Limit{has::massless, has::reduced, any,
           "a reduced run itself decides whether contact nodes have mass"},
     Limit{has::other_scheme, has::reduced, any, "a reduced run has a scheme of its own"},
-    Limit{has::restitution, has::exact_wheel, any,
-          "contact nodes of a reduced wheel of the case have no mass, hence no restitution"},
-    Limit{has::energy_safe, has::exact_wheel, any,
-          "ground.impact = \"energy-safe\" is a law of velocities, and that of a reduced wheel of "
-          "the case is one of gaps"},
-    Limit{has::friction_law, has::exact_wheel, any,
-          "a reduced wheel of the case has one coefficient of friction"},
+    Limit{has::restitution, has::reduced, any,
+          "contact nodes of a reduced wheel have no mass, hence no restitution"},
+    Limit{has::energy_safe, has::reduced, any,
+          "ground.impact = \"energy-safe\" is a law of velocities, and that of a reduced wheel is one "
+          "of gaps"},
+    Limit{has::friction_law, has::reduced, any,
+          "a reduced wheel has one coefficient of friction"},
 };
 
 }  // namespace

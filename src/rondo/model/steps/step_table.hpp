@@ -39,10 +39,8 @@ enum Feature : Features {
   plane_stress = 1U << 17,       ///< of a case
   other_scheme = 1U << 18,       ///< any other than "symplectic"
   hati = 1U << 19,               ///< sets other_scheme as well
-  reduced = 1U << 20,            ///< a run of a reduced model
+  reduced = 1U << 20,            ///< a run of a reduced wheel
   friction_law = 1U << 21,       ///< friction that is no constant
-  exact_wheel = 1U << 22,        ///< a reduced wheel made of the case; sets reduced as well
-  model_of_runs = 1U << 23,      ///< a model of rondo reduce; sets reduced as well
 };
 }  // namespace has
 

@@ -29,12 +29,7 @@ Complexes wave(int n, int k) {
 struct Parts {
   std::vector<Index> inner, contact;
 
-  explicit Parts(const Ring& ring) {
-    for (Index a = 0; a < ring.n_rows() / 2; ++a) {
-      const bool touches =
-          std::ranges::find(ring.contact, static_cast<int>(a)) != ring.contact.end();
-      if (!touches) inner.insert(inner.end(), {2 * a, 2 * a + 1});
-    }
+  explicit Parts(const Ring& ring) : inner(inner_rows(ring)) {
     for (const int a : ring.contact)
       contact.insert(contact.end(), {Index{2} * a, Index{2} * a + 1});
   }
@@ -82,17 +77,22 @@ struct Condensed {
     matrix = scale.asDiagonal() * condensed * scale.asDiagonal();
     matrix = (0.5 * (matrix + matrix.adjoint())).eval();
   }
+  /// (rows, r) φ. @param shapes (inner, r) M^½ φ_i
+  [[nodiscard]] MatrixXcd all_rows(const Ring& ring, const Parts& parts,
+                                   const MatrixXcd& shapes) const {
+    const MatrixXcd inner = root.cwiseInverse().asDiagonal() * shapes;
+    MatrixXcd all(ring.n_rows(), shapes.cols());
+    all(parts.inner, Eigen::all) = inner;
+    all(parts.contact, Eigen::all) = follow * inner;
+    return all;
+  }
 };
 
 RingHarmonic harmonic_of(const Ring& ring, const Parts& parts, int k, Index n_modes) {
   const Condensed c(ring, parts, k);
   const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(c.matrix);
-  const MatrixXcd inner =
-      c.root.cwiseInverse().asDiagonal() * solver.eigenvectors().leftCols(n_modes);
-  MatrixXcd shapes(ring.n_rows(), n_modes);
-  shapes(parts.inner, Eigen::all) = inner;
-  shapes(parts.contact, Eigen::all) = c.follow * inner;
-  return make_harmonic(ring, k, solver.eigenvalues().head(n_modes), std::move(shapes));
+  return make_harmonic(ring, k, solver.eigenvalues().head(n_modes),
+                       c.all_rows(ring, parts, solver.eigenvectors().leftCols(n_modes)));
 }
 
 /// How many eigenvalues of a Hermitian matrix are negative.
@@ -172,6 +172,22 @@ RingHarmonic make_harmonic(const Ring& ring, int k, VectorXd squares, MatrixXcd 
   if (k != 0) h.reference.setZero(), h.turned.setZero();
   if (k != 1 && ring.n_sectors() > 1) h.translation.setZero();
   return h;
+}
+
+std::vector<Index> inner_rows(const Ring& ring) {
+  std::vector<Index> rows;
+  for (Index a = 0; a < ring.n_rows() / 2; ++a)
+    if (ring.mass[at(a)] != 0.0) rows.insert(rows.end(), {2 * a, 2 * a + 1});
+  return rows;
+}
+
+RingHarmonic ritz_harmonic(const Ring& ring, int k, const MatrixXcd& shapes) {
+  const Parts parts(ring);
+  const Condensed c(ring, parts, k);
+  const MatrixXcd reduced = shapes.adjoint() * c.matrix * shapes;
+  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(0.5 * (reduced + reduced.adjoint()));
+  return make_harmonic(ring, k, solver.eigenvalues(),
+                       c.all_rows(ring, parts, shapes * solver.eigenvectors()));
 }
 
 VectorXd frequencies_of(const Ring& ring, int k) {

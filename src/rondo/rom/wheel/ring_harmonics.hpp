@@ -57,6 +57,13 @@ struct RingHarmonic {
 [[nodiscard]] RingHarmonic make_harmonic(const Ring& ring, int k, Eigen::VectorXd squares,
                                          Eigen::MatrixXcd shapes);
 
+/// Modes of a harmonic in the span of shapes of the nodes with mass, by Rayleigh and Ritz; contact
+/// nodes follow these statically. @param shapes (inner rows, r) M^½ φ, orthonormal
+[[nodiscard]] RingHarmonic ritz_harmonic(const Ring& ring, int k, const Eigen::MatrixXcd& shapes);
+
+/// Rows of the nodes with mass, ascending.
+[[nodiscard]] std::vector<Eigen::Index> inner_rows(const Ring& ring);
+
 /// How many modes are taken: the lowest over all harmonics 0 <= k < N/2, where a mode of k > 0
 /// counts for two.
 struct ModeChoice {

@@ -4,8 +4,6 @@
 namespace rondo::study {
 namespace {
 
-constexpr std::string_view memory_help = "Memory limit of the decompositions, e.g. 500MB";
-
 /// The options `--from` and `--to` of a time window.
 Option first_time(std::optional<double>& from) {
   return {"--from", "from_time", &from, "Time of the first snapshot used", "s"};
@@ -15,7 +13,7 @@ Option last_time(std::optional<double>& to) {
 }
 
 constexpr OtherOption reduced_run{"--reduced", "reduced", "is an option of a reduced run",
-                                  "with reduced = 'case', or a model of rondo.reduce"};
+                                  "with reduced = 'case', or a file of rondo.reduce"};
 constexpr OtherOption not_overwrite{"--overwrite", "overwrite",
                                     "continues what overwrite would remove", "one of the two"};
 
@@ -46,11 +44,11 @@ Options run_options(RunOptions& r) {
       {.words = "--reduced",
        .python = "reduced",
        .target = &r.reduced,
-       .help = "Runs a reduced wheel instead of the mesh: one made of the case, or the model in "
-               "this file (rondo reduce); docs/reduced.md",
+       .help = "Runs a reduced wheel instead of the mesh: one made of the case, or one with the "
+               "modes in this file (rondo reduce); docs/reduced.md",
        .in_python =
            "Runs a reduced wheel instead of the mesh: `case` for one made of the case, or a "
-           "model of rondo.reduce",
+           "file of rondo.reduce",
        .alone = wheel_of_case},
       {.words = "--modes",
        .python = "modes",
@@ -61,27 +59,14 @@ Options run_options(RunOptions& r) {
       {.words = "--estimate",
        .python = "estimate",
        .target = &r.reduced_estimate,
-       .help = "Runs a reduced wheel made of the case again, with half the step and with twice the "
-               "modes, and tells how far its mean forces differ",
-       .needs = reduced_run},
-      {.words = "--step-factor",
-       .python = "step_factor",
-       .target = &r.step_factor,
-       .help = "Step of a reduced run over that of the full run",
+       .help = "Runs a reduced wheel again, with half the step and with twice the modes, and tells "
+               "how far its mean forces differ",
        .needs = reduced_run},
       {.words = "--reduced-step",
        .python = "reduced_step",
        .target = &r.reduced_step,
-       .help = "Number of seconds, the step of a wheel made of the case, which is chosen by spin "
-               "and contact if left out; scheme of the step of a model",
-       .choices = "midpoint | explicit",
-       .needs = reduced_run},
-      {.words = "--snapshots",
-       .python = "snapshots",
-       .target = &r.reduced_snapshots,
-       .help = "Snapshots of a reduced run as fields, or as coordinates of the modes, which are "
-               "far cheaper, have no stress, and become fields in Python",
-       .choices = "fields | modes",
+       .help = "Step of a reduced wheel; chosen by spin and contact if left out",
+       .unit = "s",
        .needs = reduced_run},
   };
 }
@@ -132,54 +117,14 @@ Options pod_options(PodRequest& r) {
 
 Options reduce_options(ReduceRequest& r) {
   return {
-      {"--displacement-modes", "displacement_modes", &r.displacement_modes,
-       "Number of displacement modes, each with its derivative by the angle; 30 if left out"},
-      {"--velocity-modes", "velocity_modes", &r.velocity_modes,
-       "Number of velocity modes; 30 if left out"},
-      {.words = "--tolerance",
-       .python = "tolerance",
-       .target = &r.displacement_tolerance,
-       .help = "Share of the displacements' energy left out, instead of a number of modes",
-       .excludes = OtherOption{"--displacement-modes", "displacement_modes",
-                               "stands for a number of modes", "one of the two"}},
-      {.words = "--velocity-tolerance",
-       .python = "velocity_tolerance",
-       .target = &r.velocity_tolerance,
-       .help = "Share of the velocities' energy left out, instead of a number of modes",
-       .excludes = OtherOption{"--velocity-modes", "velocity_modes", "stands for a number of modes",
-                               "one of the two"}},
-      {"--contact-weight", "contact_weight", &r.contact_weight,
-       "Weight of the boundary's motion near the contact in the choice of modes, relative to that "
-       "of "
-       "the mass; 0: none"},
+      {"--basis", "basis", &r.basis,
+       "Modes of the wheel: those of a case at rest, or those of displacements that runs went "
+       "through; by default by what is named",
+       "", "eigenmodes | pod"},
+      {"--modes", "modes", &r.modes,
+       "Number of modes; if left out, chosen as for rondo run --reduced, of a POD 40"},
       first_time(r.from),
       last_time(r.to),
-      {.words = "--contact-stride",
-       .python = "contact_stride",
-       .target = &r.contact_stride,
-       .help =
-           "Boundary nodes for each contact point, a divisor of their number; if left out, as many "
-           "as give 180 points",
-       .range = OptionRange{1, 1000000}},
-      {.words = "--contact-phases",
-       .python = "contact_phases",
-       .target = &r.contact_phases,
-       .help = "Contact points for each boundary node; more than 1 also lie between nodes, for "
-               "comparisons",
-       .range = OptionRange{1, 16}},
-      {"--contact", "contact", &r.contact,
-       "Contact points, by default places that are fixed in space on a smooth disk, otherwise "
-       "nodes that pass by",
-       "", "places | nodes"},
-      {"--frame", "frame", &r.frame, "Frame of the modes, of which co-rotating is for comparisons",
-       "", "rectified | co-rotating"},
-      {"--memory", "memory", &r.memory, memory_help},
-      {.words = "--no-error-estimate",
-       .python = "error_estimate",
-       .target = &r.error_estimate,
-       .help = "Makes no error estimate, which by default predicts each of 3 or more runs from the "
-               "others",
-       .in_python = "Whether an error estimate predicts each of 3 or more runs from the others"},
   };
 }
 

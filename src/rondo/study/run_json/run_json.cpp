@@ -10,7 +10,6 @@
 #include "rondo/analysis/crush/latin_solver.hpp"
 #include "rondo/analysis/dynamic_members.hpp"
 #include "rondo/analysis/modes/modes_output.hpp"
-#include "rondo/analysis/reduced/reduced.hpp"
 #include "rondo/analysis/reduced/wheel.hpp"
 #include "rondo/analysis/rubber_watch.hpp"
 #include "rondo/analysis/run_session.hpp"
@@ -24,7 +23,7 @@ std::vector<MemberGroup> run_json_groups() {
           {"several analyses",
            joined({shared_members(), region_members(), strain_members(), rubber_members()})},
           {"dynamic", dynamic_members()},
-          {"reduced", joined({reduced_members(), wheel_members()})},
+          {"reduced", wheel_members()},
           {"crush", crush_members()},
           {"latin", latin_members()},
           {"steady-rolling", steady_members()},
