@@ -3,7 +3,8 @@
 """How many modes rolling needs: eigenmodes against the POD of runs, of steady states and of a crush, at random
 points against steady rolling and against full runs.
 
-    bench/reduced_modes.py [--mesh 12x180] [--points 24] [--figure FILE.png] [--folder DIR] [--program FILE]
+    bench/reduced_modes.py [--mesh 12x180] [--points 24] [--numbers 3,20] [--run "--reduced-step 1e-4"]
+        [--figure FILE.png] [--folder DIR] [--program FILE]
 
 The points are those of reduced_random.py. The POD of runs has its corners: friction 0.1 and 0.6, heights 0.285
 and 0.295 m, rim speeds 0.97 and 1.03 of 10 m/s. Steady states are those of cases/studies/reduced-steady.toml, the
@@ -17,9 +18,8 @@ import tempfile
 
 from reduced_random import CASE, ROOT, inside, means, rondo, settings
 
-NUMBERS = (1, 3, 5, 7, 11, 20, 41, 90)
-BASES = {"eigenmodes": "no runs", "pod of runs": "8 runs in time", "pod of states": "80 steady states",
-         "pod of a crush": "a quasi-static crush"}
+BASES = {"eigenmodes": "no runs", "POD of runs": "8 runs in time", "POD of states": "80 steady states",
+         "POD of a crush": "a quasi-static crush"}
 STEADY = ROOT / "cases" / "steady-rolling.toml"
 
 
@@ -41,7 +41,7 @@ def teach(options, folder):
     rondo(options.program, "run", CASE, "-o", crush, "--overwrite", *with_mesh(options.mesh), "--set",
           'analysis.kind="crush"', "--set", "analysis.depth=0.02", "--set", "analysis.increments=40", "--set", "motion.height=0.3", "--set",
           "output.stress=false")
-    return {"pod of runs": runs, "pod of states": [states], "pod of a crush": [crush]}
+    return {"POD of runs": runs, "POD of states": [states], "POD of a crush": [crush]}
 
 
 def steady_forces(options, folder, point):
@@ -63,7 +63,7 @@ def errors_of(options, folder, basis, runs, wanted, points, references):
     for point, (fx, fy) in zip(points, references):
         out = folder / "reduced"
         rondo(options.program, "run", CASE, "-o", out, "--overwrite", "--reduced", wheel,
-              *settings(point, options.mesh), "--set", "output.snapshots=0")
+              *settings(point, options.mesh), "--set", "output.snapshots=0", *options.run.split())
         x, y, _ = means(out)
         errors.append((100 * abs(x - fx) / fy, 100 * abs(y - fy) / fy))
     result = told["result"]
@@ -104,6 +104,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--mesh", default="12x180")
     parser.add_argument("--points", type=int, default=24)
+    parser.add_argument("--numbers", default="1,3,5,7,11,20,41,90", help="of modes")
+    parser.add_argument("--run", default="", help="options of the reduced runs")
     parser.add_argument("--figure", type=pathlib.Path)
     parser.add_argument("--folder", type=pathlib.Path, help="keeps all runs there")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/release/rondo")
@@ -116,7 +118,7 @@ def main():
         references = [steady_forces(options, folder, point) for point in points]
         print("| basis | modes | energy left out | F_x: largest, median | F_y |\n|---|---|---|---|---|")
         rows = [errors_of(options, folder, basis, of, wanted, points, references)
-                for basis, of in runs.items() for wanted in NUMBERS]
+                for basis, of in runs.items() for wanted in options.numbers.split(",")]
     if options.figure:
         draw(rows, options.figure)
 

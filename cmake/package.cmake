@@ -30,7 +30,7 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "Deformable disks, wheels and other bodies in large rotation, in exact
 frictional contact with rigid ground and with each other: transient
 rolling with an energy balance in each run, steady rolling,
-crushing, modes, reduced models, parametric studies. With the package for
+crushing, modes, reduced wheels, parametric studies. With the package for
 Python, example cases and pages of man.")
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_DEPENDS

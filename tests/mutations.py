@@ -34,9 +34,8 @@ SCRIPTS = {"cli": "test_run.py", "disk": "test_full_disk.py", "crush": "test_cru
            "numerical": "test_numerical.py", "resume": "test_resume.py",
            "terminal": "test_terminal.py", "sweep": "test_sweep.py", "sweeplatin": "test_sweep_latin.py", "team": "test_sweep_team.py",
            "shards": "test_sweep_shards.py", "shardswrong": "test_sweep_shards_wrong.py",
-           "rom": "test_reduced.py", "rom_forms": "test_reduced_forms.py",
-           "rom_steady": "test_reduced_steady.py", "solid": "test_solid.py",
-           "romtable": "test_reduced_table.py", "fmu": "test_fmu.py", "rim": "test_wheel_rim.py", "schema": "test_schema.py"}
+           "reduce": "test_reduce.py", "solid": "test_solid.py",
+           "fmu": "test_fmu.py", "rim": "test_wheel_rim.py", "schema": "test_schema.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are

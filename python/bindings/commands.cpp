@@ -115,7 +115,8 @@ fs::path pod(const std::vector<fs::path>& runs, const fs::path& output, const py
 
 void reduce(const std::vector<fs::path>& sources, const fs::path& output, const Settings& settings,
             const py::dict& given) {
-  demand_runs(sources);
+  if (sources.empty())
+    throw request_error("source", "[]", "nothing is given", "a case file, or results directories");
   Call call;
   study::ReduceRequest request;
   request.sources = sources;

@@ -142,7 +142,7 @@ def _parser() -> argparse.ArgumentParser:
     validate = add(
         "validate", "Compares reduced runs with the full runs that they predict",
         epilog="Prints the table, and writes validation.csv, validation.json and profiles to OUTPUT. "
-               "What is measured: docs/reduced.md, 10.")
+               "What is measured: docs/reduced.md.")
     validate.add_argument("runs", type=pathlib.Path, nargs="+", metavar="REDUCED FULL",
                           help="Results directories of `rondo run --reduced` and of the same case "
                                "without it, in turn")
@@ -150,7 +150,7 @@ def _parser() -> argparse.ArgumentParser:
                           help="Directory for the tables; default REDUCED-validation, beside the first one")
     validate.add_argument("--model", type=pathlib.Path, help=argparse.SUPPRESS)  # of earlier versions
 
-    validation = add("validation", "Draws the errors of a reduced model's predictions")
+    validation = add("validation", "Draws the errors of reduced runs")
     validation.add_argument("directory", type=pathlib.Path,
                             help="Directory of `rondo validate`")
     validation.add_argument("--run", nargs="+", action="extend", default=[], metavar="NAME",

@@ -24,7 +24,7 @@ WHEEL, OLD_MODEL = "rondo reduced wheel", "rondo reduced model"  # formats, each
 
 class ReducedWheel:
     """m modes of a ring of N = n_sectors equal sectors (a mesh without these is one), of which n_local
-    nodes are free and C may touch, and what forces on these do beyond the modes (docs/reduced.md, 0).
+    nodes are free and C may touch, and what forces on these do beyond the modes (docs/reduced.md).
     Each array is read when it is asked for.
 
     The displacement in the frame of sector j, which is that of sector 0 turned by φ_j = 2π j / N, is

@@ -128,9 +128,9 @@ def searches(driver, base):
 
 def anchor(driver, base):
     """A link to a heading, as the sources have it, lands at that heading."""
-    driver.get(f"{base}/docs/reduced.html#0-a-wheel-made-of-the-case")
+    driver.get(f"{base}/docs/reduced.html#1-what-it-can-do")
     top = until("the heading is not in sight", lambda: driver.execute_script(
-        "const y = document.getElementById('0-a-wheel-made-of-the-case').getBoundingClientRect().top;"
+        "const y = document.getElementById('1-what-it-can-do').getBoundingClientRect().top;"
         "return y > -5 && y < 200 ? [y] : null"))
     assert top
 

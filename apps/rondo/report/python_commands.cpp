@@ -29,7 +29,7 @@ constexpr PythonCommand commands[] = {
     {"tyre", "Draws lateral force and aligning moment of a sweep over the slip angle"},
     {"campbell", "Draws the frequencies of a body over its spin"},
     {"validate", "Compares reduced runs with the full runs that they predict"},
-    {"validation", "Draws the errors of a reduced model's predictions"},
+    {"validation", "Draws the errors of reduced runs"},
     {"paper", "Runs the study of the paper: our results against those expected"},
 };
 

@@ -9,7 +9,7 @@ MEMBERS: dict[str, tuple[str, str, str]] = {
     "version": ("", "", "Version of the program"),
     "build": ("", "", "Compiler, its version and the kind of build"),
     "build_id": ("", "", "Hash of the library modules in the program; program and Python module of one build have the same"),
-    "build_record": ("", "", "What the program was built from. Every JSON document of the program has it, and reduced models as an attribute; rondo --version prints it"),
+    "build_record": ("", "", "What the program was built from. Every JSON document of the program has it, and files of rondo reduce as an attribute; rondo --version prints it"),
     "build_record.commit": ("", "", "Commit of the sources; \"unknown\" for a copy without git"),
     "build_record.modified": ("", "", "Files differed from the commit; null: unknown"),
     "build_record.compiler": ("", "", "Name, version, kind of build; sanitizers"),

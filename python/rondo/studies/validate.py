@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """rondo validate: how far off the predictions of reduced wheels are, from the results of reduced
-runs and of the full runs that they are to predict (docs/reduced.md, 10)."""
+runs and of the full runs that they are to predict (docs/reduced.md)."""
 from __future__ import annotations
 
 import csv

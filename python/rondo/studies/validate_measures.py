@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the validation of reduced runs measures with: fields in the fixed frame, errors of sums
-of squares, mean tractions over the angle in space (docs/reduced.md, 10)."""
+of squares, mean tractions over the angle in space (docs/reduced.md)."""
 from __future__ import annotations
 
 import math

@@ -43,7 +43,7 @@ struct Variable {
 
 [[nodiscard]] std::span<const Variable> variables() noexcept;
 
-/// Start values from a case. @param step of the reduced model                                [s]
+/// Start values from a case. @param step of the reduced wheel                                [s]
 [[nodiscard]] Values start_values(const study::Case& c, double step);
 
 /// What is wrong with a value, in words; empty: it is valid.

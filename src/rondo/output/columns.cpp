@@ -190,7 +190,7 @@ constexpr std::array contact{
         "length_m", "m",
         "of the deformed boundary that the node stands for: half of the edges beside it; "
         "all of a snapshot make `contact_length_m` of history.csv, but where bodies touch each "
-        "other or a reduced model touches at places that stand still",
+        "other",
         [](const P& r) { return r.extent; }}};
 
 /// Columns of a wheel in three dimensions. x is along t1, y along the normal n of the ground.

@@ -89,8 +89,8 @@ constexpr JsonMember<Program> program_members[] = {
      "same",
      [](const Program&) -> Json { return build_id(); }},
     {"build_record", "object", "",
-     "What the program was built from. Every JSON document of the program has it, and reduced "
-     "models as an attribute; `rondo --version` prints it",
+     "What the program was built from. Every JSON document of the program has it, and files "
+     "of `rondo reduce` as an attribute; `rondo --version` prints it",
      [](const Program&) { return build_record_json(); }, build_record_members},
     {"dispatch", "string", "",
      "Instruction set of the inner loops: \"avx512\", \"avx2\" or \"baseline\"",

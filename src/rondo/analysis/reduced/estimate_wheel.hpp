@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  How far off the forces of a reduced wheel may be, without a full run (docs/reduced.md,
-/// 0): the wheel is run again with half the step, and with twice the modes.
+/// @file  How far off the forces of a reduced wheel may be, without a full run (docs/reduced.md):
+/// the wheel is run again with half the step, and with twice the modes.
 #pragma once
 #include <limits>
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  wheel.h5 of `rondo reduce`: the modes of a reduced wheel, its matrices and tables for
-/// other programs, and the body that it is of (docs/reduced.md, 7).
+/// other programs, and the body that it is of (docs/reduced.md).
 #pragma once
 #include <filesystem>
 #include <span>

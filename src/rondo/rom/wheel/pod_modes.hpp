@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Modes of a ring from fields that its runs went through (docs/reduced.md, 2): the POD of
+/// @file  Modes of a ring from fields that its runs went through (docs/reduced.md): the POD of
 /// these fields together with the same fields turned by any number of sectors. Its modes are
 /// harmonics, so that steps and residual are those of eigenmodes.
 #pragma once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  `rondo reduce`: keeps the modes of a reduced wheel, with its matrices and tables, in a
-/// file: eigenmodes of a case, or the POD of fields that runs went through (docs/reduced.md, 7).
+/// file: eigenmodes of a case, or the POD of fields that runs went through (docs/reduced.md).
 #pragma once
 #include <filesystem>
 #include <functional>
