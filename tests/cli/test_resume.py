@@ -422,6 +422,9 @@ class Refused(ResumeTest):
                                 "--resume"), 2, "a crush has no checkpoints")
         self.assert_refused(self.resume(self.TEXT, "--overwrite"), 2, "--resume")
         self.assertFalse(self.out.exists())
+        self.assertEqual(run("run", ROOT / "cases" / "crush-smooth.toml", "-o", self.out, "--set",
+                             "analysis.increments=2").returncode, 0)
+        self.assert_refused(self.resume(self.TEXT), 2, "a run that keeps no checkpoints")
 
     def test_the_users_case_file_is_never_replaced(self):
         self.out.mkdir()
