@@ -135,6 +135,7 @@ CLI::App* add_reduce(CLI::App& program, study::ReduceRequest& r, Telling& tell) 
     accept_gone(*reduce, gone, 1,
                 "reduced wheels have exact contact at the nodes; --modes sets their number of "
                 "modes");
+  accept_gone(*reduce, "--validate", 1, "rondo validate REDUCED FULL compares two runs");
   accept_gone(*reduce, "--no-error-estimate", 0, "rondo run --reduced --estimate estimates errors");
   add_telling(*reduce, tell, "Prints warnings and the results only");
   reduce->footer(

@@ -21,6 +21,13 @@ class Reduce(WheelTest):
         self.assertEqual(file.exists(), code == 0)
         return (file, done) if code == 0 else done.stderr
 
+    def reduces_to(self, file, source):
+        before = file.read_bytes()
+        done = run("reduce", source, "-o", file)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(file.read_bytes(), before)
+        return done.stderr
+
     def full(self, *arguments, case=SMALL, out="full", code=0):
         out = self.folder / out
         done = run("run", self.case(case), "-o", out, *arguments)
@@ -88,6 +95,21 @@ class Reduce(WheelTest):
         y = mean(full, "force_y")
         self.assertAlmostEqual(mean(history(out), "force_y") / y, 1.0, delta=0.01)
         self.assertAlmostEqual(mean(history(out), "force_x") / y, mean(full, "force_x") / y, delta=0.01)
+        # While it lands: modes that are none of the wheel's are worse than none.
+        def landing(rows):
+            edges = np.arange(0.006, 0.06, 0.0021)
+            impulse = np.cumsum(rows["force_y"] * np.diff(rows["time_s"], prepend=0.0))
+            return np.diff(np.interp(edges, rows["time_s"], impulse)) / 0.0021
+
+        file, _ = self.reduce(*runs, "--basis", "pod", "--modes", 41)
+        errors = []
+        fine = ["--set", "ground.friction=0.2", "--set", "output.history_interval=0", *COARSE]
+        landed = landing(history(self.full(*fine, case=ROLLING, out="landing")))
+        for options, of in (([], file), (["--modes", 0], None)):
+            out, _ = self.wheel(*fine, *options, "--overwrite", case=ROLLING, file=of, out="lands")
+            errors.append(np.sqrt(np.mean((landing(history(out)) - landed) ** 2)) / y)
+        self.assertLess(errors[0], 0.008)
+        self.assertGreater(errors[1], 0.0095)
         slippery, _ = self.wheel("--set", "ground.friction=0.05", *COARSE, case=ROLLING, file=file, out="slippery")
         self.assertGreater(abs(mean(history(slippery), "force_x") / y - mean(full, "force_x") / y), 0.01)
         # The first modes hold more of the energy than any other number of them.
@@ -121,10 +143,21 @@ class Reduce(WheelTest):
         self.assertEqual((self.folder / "whole" / "history.csv").read_bytes(), (out / "history.csv").read_bytes())
 
     def test_the_estimate_of_a_file(self):
+        """Half the step with the modes of the file; twice as many eigenmodes."""
         file, _ = self.reduce(self.full(), "--modes", 8)
-        out, done = self.wheel("--estimate", case=SMALL, file=file)
+        every = ["--set", "output.history_interval=0"]
+        out, done = self.wheel("--estimate", *every, case=SMALL, file=file)
         self.assertIn("error estimate", done.stdout + done.stderr)
-        self.assertGreater(summary(out)["wheel_estimate"]["force_y"], 0.0)
+        told, step = summary(out)["wheel_estimate"], summary(out)["step"]
+        halved, _ = self.wheel("--reduced-step", repr(step / 2), *every, case=SMALL, file=file, out="halved")
+        n = summary(out)["wheel_modes"]
+        richer, _ = self.wheel("--reduced-step", repr(step), "--modes", 2 * n, *every, case=SMALL,
+                               out="richer")
+        for other, name in ((halved, "force_x_by_step"), (richer, "force_x_by_modes")):
+            a, b = (history(one) for one in (out, other))
+            x, y = ([np.mean(h[c][1:][np.arange(1, len(h[c])) > 0.75 * (len(h[c]) - 1)]) for h in (a, b)]
+                    for c in ("force_x", "force_y"))
+            self.assertAlmostEqual(told[name], (x[0] - x[1]) / y[1], delta=1e-6, msg=name)
 
     def test_a_mesh_from_a_file(self):
         text = (ROOT / "cases" / "rolling-spokes.toml").read_text().replace('"meshes/', f'"{ROOT}/cases/meshes/')
@@ -150,6 +183,10 @@ class Reduce(WheelTest):
         self.assertIn("a POD is of runs", self.reduce(full, "--set", "ground.friction=0", code=2, file=none))
         self.assertIn("no snapshot", self.reduce(full, "--from", 5, code=2, file=none))
         self.assertIn("no such", self.reduce(self.folder / "missing.toml", code=2, file=none))
+        self.assertIn("no file of rondo reduce", self.reduces_to(full / "results.h5", full))
+        self.assertIn("no file of rondo reduce", self.reduces_to(case, case))
+        self.assertIn("is of results, and", self.reduce(case, "--basis", "pod", code=2, file=none))
+        self.assertIn("RESULTS --basis pod", self.reduce(ROOT / "cases/crush-smooth.toml", code=2, file=none))
         fine = self.full("--set", "disk.mesh.radial=4", out="fine")
         self.assertIn("not the mesh of", self.reduce(full, fine, code=2, file=none))
         stiff = self.full("--set", "material.youngs_modulus=3e7", out="stiff")
@@ -159,6 +196,29 @@ class Reduce(WheelTest):
         still = self.full("--set", "motion.angular_velocity=0", "--set", "motion.height=0.4", "--set",
                           "motion.speed=0", out="still")
         self.assertIn("nothing moves", self.reduce(still, code=2, file=none))
+
+    def test_runs_of_other_spins_and_kinds_of_contact(self):
+        """What a basis does not depend on may differ; a body that the spin stiffens is that of its spin."""
+        runs = [self.full("--set", "motion.angular_velocity=-30", "--set", "motion.speed=-9", out="back"),
+                self.full("--set", "ground.restitution=0.5", out="bounces")]
+        for order in (runs, runs[::-1]):
+            found = json.loads(self.reduce(*order, "--json")[1].stdout)["result"]
+            self.assertEqual((found["snapshots"], len(found["spins"])), (22, 3))
+        stiff = ["--set", 'material.stress_stiffening="centrifugal"', "--set",
+                 "motion.angular_velocity=[[0, 30], [0.02, 35]]"]
+        file, _ = self.reduce(self.full(*stiff, out="stiff"), file="stiff.h5")
+        self.wheel(*stiff, case=SMALL, file=file)
+        _, done = self.wheel(*stiff, "--set", "motion.angular_velocity=35", "--overwrite", case=SMALL, file=file, code=2)
+        self.assertIn("another mesh or material", done.stderr)
+
+    def test_a_window_in_seconds_is_not_of_a_crush(self):
+        crush = self.full("--set", 'analysis.kind="crush"', "--set", "analysis.depth=0.004", "--set",
+                          "analysis.increments=10", out="crush", case=replaced(SMALL, "height", "height = 0.3"))
+        own = json.loads(self.reduce(crush, "--json")[1].stdout)["result"]["snapshots"]
+        full = self.full()
+        both = json.loads(self.reduce(crush, full, "--from", 0.0095, "--json")[1].stdout)["result"]["snapshots"]
+        alone = json.loads(self.reduce(full, "--from", 0.0095, "--json")[1].stdout)["result"]["snapshots"]
+        self.assertEqual(both, own + alone)
 
     def test_what_a_run_refuses(self):
         def refused(text, *arguments, file, code=2):
@@ -177,7 +237,8 @@ class Reduce(WheelTest):
         data[len(data) // 2] ^= 1
         damaged.write_bytes(data)
         refused("damaged.h5", file=damaged, code=4)
-        refused("wheel.toml", file=self.case(SMALL, "wheel.toml"), code=4)
+        refused("rondo reduce CASE.toml -o wheel.h5 makes a file", file=self.case(SMALL, "wheel.toml"), code=4)
+        refused("rondo reduce RESULTS --basis pod", file=self.folder)
 
     def test_options_that_are_gone_are_told(self):
         full = self.full()

@@ -175,7 +175,7 @@ def test_modes_pod_and_sweep(case):
     (lambda c: rondo.solve(c, threads=0), rondo.InputError, "threads = 0.*1 to 1024"),
     (lambda c: rondo.Simulation(c, threads=-1), rondo.InputError, "threads = -1"),
     (lambda c: rondo.run(c, "x", overwrite=True, resume=True), rondo.InputError, "one of the two"),
-    (lambda c: rondo.reduce([], "m.h5"), rondo.InputError, "no run is given"),
+    (lambda c: rondo.reduce([], "m.h5"), rondo.InputError, "nothing is given"),
     (lambda c: rondo.modes(c, sweep="1:2"), rondo.InputError, "sweep"),
     (lambda c: rondo.reduce("none", "m.h5"), rondo.Error, "none"),
     (lambda c: rondo.sweep(c, jobs=0), rondo.Error, "jobs = 0"),

@@ -126,8 +126,8 @@ int WheelRun::node_of(int contact_node) const noexcept {
 
 void WheelRun::report_contact(const WheelReport& wheel, dynamics::ContactReport& report) const {
   const double dt = model_.dt;
-  report.impulse = dt * wheel.force;
-  report.angular_impulse = dt * wheel.torque;
+  report.impulse = dt * wheel.mean_force;
+  report.angular_impulse = dt * wheel.mean_torque;
   report.free_velocity = wheel.free / dt;
   report.residual = wheel.law_residual * report.free_velocity;
   report.clusters = wheel.candidates > 0 ? 1 : 0;
@@ -194,7 +194,10 @@ void WheelRun::step(dynamics::StepReport& report) {
 void WheelRun::fill(dynamics::State& state) const {
   state.step = n_;
   state.frame = frame_;
-  wheel_.displacement(frame_.angle, state.v.empty(), state.u);
+  if (state.v.empty())
+    wheel_.contact_displacement(frame_.angle, state.u);
+  else
+    wheel_.displacement(frame_.angle, state.u);
   state.active = active_;
   const double middle = frame_.angle - 0.5 * frame_.turn_before;
   if (!state.v.empty()) wheel_.velocity(middle, state.v);
@@ -208,7 +211,7 @@ void WheelRun::advance(std::span<dynamics::StepReport> reports, dynamics::State*
 }
 
 void WheelRun::fields(dynamics::State& state) const noexcept {
-  wheel_.displacement(frame_.angle, false, state.u);
+  wheel_.displacement(frame_.angle, state.u);
   wheel_.velocity(frame_.angle - 0.5 * frame_.turn_before, state.v_next);
 }
 

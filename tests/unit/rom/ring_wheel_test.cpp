@@ -259,5 +259,45 @@ TEST(RingWheel, TheLedgerClosesWhileTheSpinChanges) {
   EXPECT_LE(o.residual, 1e-9);
 }
 
+/// What changes quickly would seem to come early if the force at the end stood for the whole step.
+TEST(RingWheel, TheMeanForceIsThatWhichMovesTheModes) {
+  const OneBlasThread one;
+  const Rolling run{};
+  Wheel w(disk(), run);
+  Vec2 before;
+  double torque_before = 0.0, changes = 0.0;
+  for (int i = 0; i < 60; ++i) {
+    const WheelReport r = w.wheel.step(w.motion.at(i));
+    const Vec2 mean = run.theta * r.force + (1.0 - run.theta) * before;
+    EXPECT_NEAR(r.mean_force.x, mean.x, 1e-9 * (1.0 + norm(r.force))) << i;
+    EXPECT_NEAR(r.mean_force.y, mean.y, 1e-9 * (1.0 + norm(r.force))) << i;
+    EXPECT_NEAR(r.mean_torque, run.theta * r.torque + (1.0 - run.theta) * torque_before,
+                1e-9 * (1.0 + std::abs(r.torque)))
+        << i;
+    changes = std::max(changes, norm(r.force - before));
+    before = r.force;
+    torque_before = r.torque;
+  }
+  EXPECT_GT(changes, 1000.0) << "the wheel lands";
+}
+
+/// Both ways to the displacement of a contact node.
+TEST(RingWheel, ContactNodesAreWhereTheFieldHasThem) {
+  const OneBlasThread one;
+  Wheel w(disk(), {});
+  for (int i = 0; i < 80; ++i) static_cast<void>(w.wheel.step(w.motion.at(i)));
+  const double angle = w.motion.at(79).angle_next;
+  std::vector<Vec2> field(disk().built.mesh.n_nodes()), contact(field.size());
+  w.wheel.displacement(angle, field);
+  w.wheel.contact_displacement(angle, contact);
+  double largest = 0.0;
+  for (const int node : disk().built.mesh.boundary) {
+    const auto k = static_cast<std::size_t>(node);
+    EXPECT_LT(norm(field[k] - contact[k]), 1e-12) << node;
+    largest = std::max(largest, norm(field[k]));
+  }
+  EXPECT_GT(largest, 1e-3);
+}
+
 }  // namespace ring_wheel_test
 }  // namespace rondo::rom

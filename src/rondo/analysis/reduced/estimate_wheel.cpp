@@ -74,6 +74,12 @@ WheelEstimate estimate_wheel(const Case& c, const RunOptions& options, double st
   richer.reduced = wheel_of_case;
   richer.reduced_modes = n_modes > 0 ? 2 * n_modes : 10;
   WheelEstimate e;
+  if (c.mesh && *richer.reduced_modes > most_modes_of_mesh)
+    return {fmt::format("twice {} modes are more than the {} that a mesh without equal sectors may "
+                        "have",
+                        n_modes, most_modes_of_mesh),
+            {},
+            {}};
   std::array<Means, 3> means;
   std::size_t k = 0;
   for (const RunOptions* with : {&own, &finer, &richer}) {

@@ -21,7 +21,7 @@ constexpr double longest_step = 4e-4;      ///< chosen without a wish           
 constexpr double fewest_passes = 1.618;    ///< steps in the pass of a sector
 constexpr double beyond_whole = 0.618;     ///< so that nodes are seen at all their phases
 constexpr double steps_in_contact = 20.0;  ///< while a node passes it
-constexpr int few_modes_of_mesh = 20, most_modes_of_mesh = 300;
+constexpr int few_modes_of_mesh = 20;
 constexpr int most_modes = 40, most_modes_of_tread = 90, fewest_modes = 10;
 constexpr double highest_mode = 1.5;      ///< ω Δt of the modes that are taken
 constexpr double speed_from_rest = 60.0;  ///< that a wheel from rest may come to         [m/s]
@@ -186,8 +186,12 @@ std::vector<rom::RingHarmonic> harmonics_of(const Case& c, const RunOptions& opt
                                             const Setup& setup, PreparedWheel& wheel) {
   if (options.reduced.empty() || options.reduced == wheel_of_case) {
     const rom::ModeChoice choice = modes_of(options, setup);
-    return wheel.whole ? rom::whole_modes(*wheel.ring, whole_of(setup), choice)
-                       : rom::ring_modes(*wheel.ring, choice);
+    std::vector<rom::RingHarmonic> found =
+        wheel.whole ? rom::whole_modes(*wheel.ring, whole_of(setup), choice)
+                    : rom::ring_modes(*wheel.ring, choice);
+    if (const int n = rom::count_modes(found); options.reduced_modes && n < choice.wanted)
+      wheel.warnings.push_back(fmt::format("--modes {}: the wheel has {} modes", choice.wanted, n));
+    return found;
   }
   if (options.reduced_modes)
     throw request_error(

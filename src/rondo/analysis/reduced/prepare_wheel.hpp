@@ -12,6 +12,9 @@
 
 namespace rondo::study {
 
+/// Without equal sectors more modes take too long to find.
+inline constexpr int most_modes_of_mesh = 300;
+
 /// What the case says about contact, before the run.
 struct ExpectedContact {
   double spin = 0.0;     ///< largest |ω|                                             [rad/s]

@@ -28,6 +28,7 @@ using rom::RingHarmonic;
 
 constexpr const char* format = "rondo reduced wheel 1";
 constexpr const char* format_of_old = "rondo reduced model";  ///< and a number
+constexpr const char* how_to_make = "rondo reduce CASE.toml -o wheel.h5 makes a file for --reduced";
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::vector<std::string> lines;
@@ -192,12 +193,20 @@ File open_wheel_file(const std::filesystem::path& path) {
     throw InputError(Fault{path.string(), 0, 0, "", "", "no such file",
                            "a file that `rondo reduce CASE.toml -o wheel.h5` has written; or "
                            "--reduced without a file"});
-  File file = io::open_checkpoint_file(path);
-  const std::string found = file.attribute("/", "format");
-  if (found.starts_with(format_of_old)) refuse_old_model(file, path.string());
-  if (found != format)
-    throw FileError(path.string(), fmt::format("is not a reduced wheel (\"{}\")", format));
-  return file;
+  if (std::filesystem::is_directory(path, error))
+    throw request_error("--reduced", path.string(), "is a directory, not a file of modes",
+                        "of results: rondo reduce RESULTS --basis pod -o wheel.h5; or --reduced "
+                        "without a file");
+  try {
+    File file = io::open_checkpoint_file(path);
+    const std::string found = file.attribute("/", "format");
+    if (found.starts_with(format_of_old)) refuse_old_model(file, path.string());
+    if (found == format) return file;
+  } catch (const FileError& fault) {
+    throw FileError(fault, how_to_make);
+  }
+  throw FileError(path.string(),
+                  fmt::format("is not a reduced wheel (\"{}\"); {}", format, how_to_make));
 }
 
 /// @throws InputError: the file is of another body
@@ -251,6 +260,15 @@ WheelFile read_wheel_file(const std::filesystem::path& path, const Case& c, cons
   if (file.attribute("/", "basis") == name_of(WheelBasis::pod)) content.basis = WheelBasis::pod;
   content.harmonics = read_modes(file, ring, path.string());
   return content;
+}
+
+bool is_wheel_file(const std::filesystem::path& path) {
+  try {
+    const std::string found = io::open_checkpoint_file(path).attribute("/", "format");
+    return found == format || found.starts_with(format_of_old);
+  } catch (const FileError&) {
+    return false;
+  }
 }
 
 std::string body_text(const Case& c) {

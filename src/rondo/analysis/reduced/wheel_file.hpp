@@ -37,7 +37,7 @@ void write_wheel_file(const std::filesystem::path& file, const Case& c, const Se
                       const rom::Ring& ring, const rom::WheelModel& model,
                       const WheelOrigin& origin);
 
-/// @param option that names the file. @throws InputError: no such file, a model of an earlier
+/// @throws InputError: no such file, a model of an earlier
 /// version, another body; FileError: damaged, or not a reduced wheel
 WheelFile read_wheel_file(const std::filesystem::path& file, const Case& c, const Setup& setup,
                           const rom::Ring& ring);
@@ -47,5 +47,8 @@ std::string body_text(const Case& c);
 
 /// "radial = 24 against radial = 12"; empty: the same body.
 std::string body_difference(const std::string& of_case, const std::string& of_other);
+
+/// Whether there is a file that `rondo reduce` has written, or of an earlier version.
+bool is_wheel_file(const std::filesystem::path& file);
 
 }  // namespace rondo::study

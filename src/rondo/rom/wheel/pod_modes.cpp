@@ -48,17 +48,12 @@ void FieldHarmonics::add(std::span<const Vec2> field) {
       field_(j, r + 1) = root_[r + 1] * x.y;
     }
   }
+  energy_ += field_.squaredNorm();
   const MatrixXcd harmonics = waves_ * field_;
   for (std::size_t k = 0; k < sums_.size(); ++k) {
     const VectorXcd u = harmonics.row(static_cast<Index>(k)).transpose();
     sums_[k].noalias() += u * u.adjoint();
   }
-}
-
-double FieldHarmonics::energy() const noexcept {
-  double sum = 0.0;
-  for (std::size_t k = 0; k < sums_.size(); ++k) sum += weight_of(k) * sums_[k].trace().real();
-  return ring_.n_sectors() * sum;
 }
 
 PodModes FieldHarmonics::modes(int wanted) const {
@@ -75,7 +70,6 @@ PodModes FieldHarmonics::modes(int wanted) const {
       all.push_back({ring_.n_sectors() * weight_of(k) * square, k});
   }
   std::ranges::stable_sort(all, std::greater<>(), &Mode::energy);
-  const double whole = energy();
   std::vector<Index> taken(sums_.size());
   double inside = 0.0;
   int count = 0;
@@ -90,7 +84,7 @@ PodModes FieldHarmonics::modes(int wanted) const {
     if (taken[k] > 0)
       found.harmonics.push_back(
           ritz_harmonic(ring_, static_cast<int>(k), vectors[k].rightCols(taken[k])));
-  found.left = whole > 0.0 ? std::max(0.0, 1.0 - inside / whole) : 0.0;
+  found.left = energy_ > 0.0 ? std::max(0.0, 1.0 - inside / energy_) : 0.0;
   return found;
 }
 

@@ -24,13 +24,14 @@ class FieldHarmonics {
 
   /// @param field (n) on all nodes of the body, in the co-rotating frame
   void add(std::span<const Vec2> field);
-  /// Σ over fields of their squared mass norm, without the harmonic N/2.
-  [[nodiscard]] double energy() const noexcept;
+  /// Σ over fields of their squared mass norm. The harmonic N/2 is in it, but has no modes.
+  [[nodiscard]] double energy() const noexcept { return energy_; }
   /// The modes with most energy, at least `wanted` where the fields have so many; a mode of a
   /// harmonic k > 0 counts for two.
   [[nodiscard]] PodModes modes(int wanted) const;
 
  private:
+  double energy_ = 0.0;
   const Ring& ring_;
   std::vector<Eigen::Index> rows_;      ///< of the nodes with mass
   Eigen::VectorXd root_;                ///< (inner) √M

@@ -260,7 +260,7 @@ WheelReport RingWheel::step(const WheelMotion& m) {
   find_near(m, lag / (1.0 + lag));
   if (near_compliance_) fill_near_compliance();
   solve(m, settings_.friction, report);
-  take_forces(report);
+  take_forces(m, report);
   account(m, report);
   remember(m);
   return report;

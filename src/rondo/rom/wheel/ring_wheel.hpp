@@ -70,8 +70,10 @@ struct WheelContact {
 };
 
 struct WheelReport {
-  Vec2 force;           ///< of the ground                                           [N/m]
+  Vec2 force;           ///< of the ground, at the end of the step                   [N/m]
   double torque = 0.0;  ///< about the center, counter-clockwise                       [N]
+  Vec2 mean_force;  ///< θ of it and 1 - θ of that at the start: what moves the modes and the rim
+  double mean_torque = 0.0;
   WheelEnergy energy;
   int candidates = 0;  ///< nodes whose contact was solved
   int iterations = 0;
@@ -106,8 +108,10 @@ class RingWheel {
   /// @param softened by the spin: elastic energy as of steps on tables
   [[nodiscard]] WheelEnergy energy_at_start(bool softened) const;
   /// Displacement of the free nodes after the last step, in the co-rotating frame; (n).
-  /// @param angle θ at its end. @param contact_alone writes only that of the contact nodes
-  void displacement(double angle, bool contact_alone, std::span<Vec2> u) const;
+  /// @param angle θ at its end
+  void displacement(double angle, std::span<Vec2> u) const;
+  /// Writes that of the contact nodes alone, and allocates nothing.
+  void contact_displacement(double angle, std::span<Vec2> u) const;
   /// And the mean velocity in it. @param angle θ in its middle
   void velocity(double angle, std::span<Vec2> v) const;
   /// W[lag]: displacement at the end of a step of contact node i by a force on j, i - j = lag.
@@ -198,6 +202,7 @@ class RingWheel {
   [[nodiscard]] WheelRim::End end_of(const WheelReport& report, double ahead) const;
   void turn_modes(double angle);
   void begin(const WheelMotion& motion);
+  void move_contact();
   void look_at_start(const WheelMotion& motion, std::span<const Vec2> u);
   void press_at_start(const WheelMotion& motion, std::span<const Vec2> u);
   [[nodiscard]] std::vector<std::size_t> touching(const WheelMotion& motion,
@@ -220,19 +225,18 @@ class RingWheel {
   void place_all();
   [[nodiscard]] bool turn_normals(const WheelMotion& motion) const;
   [[nodiscard]] bool join(const WheelMotion& motion);
-  void take_forces(WheelReport& report);
+  void take_forces(const WheelMotion& m, WheelReport& report);
   void account(const WheelMotion& motion, WheelReport& report);
   void account_modes(const WheelMotion& motion, WheelEnergy& energy) const;
   [[nodiscard]] double work_on_modes(Complex turn, int node, Vec2 own) const;
   [[nodiscard]] double work_on_modes(const WheelMotion& motion) const;
   [[nodiscard]] Products products(const Shares& shares) const;
   void remember(const WheelMotion& motion);
-  struct Rows;
   template <class Filtered>
   [[nodiscard]] Eigen::VectorXd by_contact(Filtered&& filtered) const;
   template <class Coefficients, class Filtered>
-  void write_field(Rows rows, double angle, const Eigen::VectorXd& constant,
-                   Coefficients&& coefficients, Filtered&& filtered, std::span<Vec2> field) const;
+  void write_field(double angle, const Eigen::VectorXd& constant, Coefficients&& coefficients,
+                   Filtered&& filtered, std::span<Vec2> field) const;
   [[nodiscard]] Vec2 arm(int node) const noexcept {
     const Complex x = ring_.place[static_cast<std::size_t>(
         ring_.contact[static_cast<std::size_t>(node % n_contact_)])];

@@ -236,7 +236,7 @@ void RingWheel::push_modes(const Near& near, Vec2 own) {
 }
 
 /// Forces of the ground, and what they do to the modes and to the residual.
-void RingWheel::take_forces(WheelReport& report) {
+void RingWheel::take_forces(const WheelMotion& m, WheelReport& report) {
   const double lag = settings_.stiffness_damping / settings_.dt;
   for (const int node : active_) {
     Memory& memory = memory_of(node);
@@ -266,11 +266,22 @@ void RingWheel::take_forces(WheelReport& report) {
     push_by(s, s.force, s.work);
     s.state += settings_.theta * s.work;
   }
+  report.mean_force = settings_.theta * report.force;
+  report.mean_torque = settings_.theta * report.torque;
+  const Complex frame = rotation(m.angle);
+  for (const Near& near : near_) {
+    const Vec2 before = (1.0 - settings_.theta) *
+                        (frame * ring_.stiffness.turn[at(sector(near.node))] * near.own_before);
+    report.mean_force += before;
+    report.mean_torque += cross(memory_of(near.node).place[0], before);
+  }
   report.contacts = contacts_;
 }
 
-/// Places, gaps, statuses and forces at the end of the step.
+/// Places, gaps, statuses and forces at the end of the step, and what the modes do to contact
+/// nodes.
 void RingWheel::remember(const WheelMotion& m) {
+  move_contact();
   std::erase_if(active_, [&](int node) {
     Memory& memory = memory_of(node);
     const bool gone = dot(memory.filtered, memory.filtered) < nothing * nothing;

@@ -32,11 +32,16 @@ void RingWheel::begin(const WheelMotion& m) {
   }
 }
 
-/// Places of the nodes near the ground at the start.
-void RingWheel::look_at_start(const WheelMotion& m, std::span<const Vec2> u) {
+/// What the modes do to the contact nodes.
+void RingWheel::move_contact() {
   for (std::size_t h = 0; h < modes_.size(); ++h)
     modes_[h].contact.noalias() =
         harmonics_[h].contact * modes_[h].state.head(harmonics_[h].squares.size());
+}
+
+/// Places of the nodes near the ground at the start.
+void RingWheel::look_at_start(const WheelMotion& m, std::span<const Vec2> u) {
+  move_contact();
   find_near(m, 0.0);
   solved_.clear();
   contacts_.clear();
@@ -164,24 +169,6 @@ void RingWheel::project(double angle, std::span<const Vec2> field, bool velocity
   }
 }
 
-/// Rows of a sector whose field is asked for: all, or those of the contact nodes.
-struct RingWheel::Rows {
-  bool contact;
-
-  [[nodiscard]] const Matrix& shapes(const RingHarmonic& h) const noexcept {
-    return contact ? h.contact : h.shapes;
-  }
-  [[nodiscard]] const std::vector<double>& table(const RingResidual& r) const noexcept {
-    return contact ? r.blocks : r.fields;
-  }
-  [[nodiscard]] Index size(const Ring& ring) const noexcept {
-    return contact ? ring.n_contact() : ring.n_rows();
-  }
-  [[nodiscard]] std::size_t row(const Ring& ring, Index a) const noexcept {
-    return contact ? at(ring.contact[at(a / 2)]) : at(a / 2);
-  }
-};
-
 /// (rows) What the filtered forces do beyond the modes, of a ring of one sector.
 template <class Filtered>
 Eigen::VectorXd RingWheel::by_contact(Filtered&& filtered) const {
@@ -196,28 +183,26 @@ Eigen::VectorXd RingWheel::by_contact(Filtered&& filtered) const {
   return u;
 }
 
-/// Writes a field of the rows, in the co-rotating frame.
-/// @param constant (all rows) part that is the same in all sectors
+/// Writes a field of all free nodes, in the co-rotating frame.
+/// @param constant (rows) part that is the same in all sectors
 template <class Coefficients, class Filtered>
-void RingWheel::write_field(Rows rows, double angle, const Eigen::VectorXd& constant,
+void RingWheel::write_field(double angle, const Eigen::VectorXd& constant,
                             Coefficients&& coefficients, Filtered&& filtered,
                             std::span<Vec2> field) const {
-  const Index n_rows = rows.size(ring_), size = ring_.n_contact();
+  const Index n_rows = ring_.n_rows(), size = ring_.n_contact();
   Eigen::VectorXd u(n_rows);
   std::vector<Vector> amplitudes;
   for (std::size_t h = 0; h < modes_.size(); ++h)
-    amplitudes.emplace_back(harmonics_[h].weight() *
-                            (rows.shapes(harmonics_[h]) * coefficients(h)));
+    amplitudes.emplace_back(harmonics_[h].weight() * (harmonics_[h].shapes * coefficients(h)));
   const Complex frame = rotation(angle);
   const int n = ring_.n_sectors();
   for (int j = 0; j < n; ++j) {
     const Complex turn = ring_.stiffness.turn[at(j)];
-    for (Index a = 0; a < n_rows; ++a)
-      u[a] = constant[static_cast<Index>(2 * rows.row(ring_, a)) + a % 2];
+    u = constant;
     for_waves(harmonics_, frame * turn, [&](std::size_t h, Complex wave) {
       u += wave.re * amplitudes[h].real() - wave.im * amplitudes[h].imag();
     });
-    if (model_.residuals.front().by_contact && !rows.contact)
+    if (model_.residuals.front().by_contact)
       u += by_contact(filtered);
     else
       for (const int node : active_) {
@@ -225,25 +210,34 @@ void RingWheel::write_field(Rows rows, double angle, const Eigen::VectorXd& cons
         const int d = (j - sector(node) + n) % n, c = 2 * (node % n_contact_);
         for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
           const Eigen::Map<const Eigen::MatrixXd> all(
-              rows.table(model_.residuals[a]).data() + d * size * n_rows, n_rows, size);
+              model_.residuals[a].fields.data() + d * size * n_rows, n_rows, size);
           u += shares_[a] * (le.x * all.col(c) + le.y * all.col(c + 1));
         }
       }
     for (Index a = 0; a < n_rows; a += 2)
-      field[ring_.stiffness.node(rows.row(ring_, a), at(j))] = turn * Vec2{u[a], u[a + 1]};
+      field[ring_.stiffness.node(at(a / 2), at(j))] = turn * Vec2{u[a], u[a + 1]};
   }
 }
 
-void RingWheel::displacement(double angle, bool contact_alone, std::span<Vec2> u) const {
+void RingWheel::contact_displacement(double angle, std::span<Vec2> u) const {
+  const Complex frame = rotation(angle);
+  for (int node = 0, n = static_cast<int>(memory_.size()); node < n; ++node) {
+    const auto row = at(ring_.contact[at(node % n_contact_)]), j = at(sector(node));
+    const Complex turn = ring_.stiffness.turn[j];
+    u[ring_.stiffness.node(row, j)] = turn * displacement(node, frame * turn, 1.0);
+  }
+}
+
+void RingWheel::displacement(double angle, std::span<Vec2> u) const {
   write_field(
-      {contact_alone}, angle, centrifugal_,
+      angle, centrifugal_,
       [&](std::size_t h) { return modes_[h].state.head(harmonics_[h].squares.size()); },
       [](const Memory& memory) { return memory.filtered; }, u);
 }
 
 void RingWheel::velocity(double angle, std::span<Vec2> v) const {
   write_field(
-      {false}, angle, Eigen::VectorXd::Zero(ring_.n_rows()),
+      angle, Eigen::VectorXd::Zero(ring_.n_rows()),
       [&](std::size_t h) {
         const Index r = harmonics_[h].squares.size();
         return Vector(0.5 * (modes_[h].before.tail(r) + modes_[h].state.tail(r)));

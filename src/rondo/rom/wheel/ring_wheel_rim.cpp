@@ -233,7 +233,7 @@ WheelReport RingWheel::step(long long n, WheelRim& rim, dynamics::Works& works) 
   on_moving_rim_ = false;
   accelerate_modes(rim.change());
   m = rim.moved();
-  take_forces(report);
+  take_forces(m, report);
   account(m, report);
   const double turn = m.angle_next - waves_at(m);
   rim.finish(end_of(report, turn), works);

@@ -96,6 +96,7 @@ void RingWheel::restore(std::span<const double> numbers) {
     from.fill(s.state);
     from.fill(s.force);
   }
+  move_contact();
   active_.clear();
   for (std::size_t node = 0; node < memory_.size(); ++node) {
     Memory& m = memory_[node];

@@ -206,8 +206,10 @@ std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotCh
 
 bool is_in_window(const std::vector<io::RunReader>& runs, std::size_t run, double time,
                   const std::optional<double>& from, const std::optional<double>& to) {
-  const auto is_steady = [](const io::RunReader& r) { return r.analysis() == "steady-rolling"; };
-  if (is_steady(runs[run]) && !std::ranges::all_of(runs, is_steady)) return true;
+  const auto is_in_time = [](const io::RunReader& r) {
+    return r.is_motion() && r.analysis() != "steady-rolling";
+  };
+  if (!is_in_time(runs[run]) && std::ranges::any_of(runs, is_in_time)) return true;
   return time >= from.value_or(-infinity) && time <= to.value_or(infinity);
 }
 

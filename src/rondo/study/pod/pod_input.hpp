@@ -33,7 +33,7 @@ const char* unit_of(io::Quantity quantity, const io::RunReader& run) noexcept;
 std::vector<io::RunReader> open_runs(const PodRequest& request, const SnapshotChoice& choice);
 
 /// Whether a snapshot is in the window. Together with runs in time, all snapshots of a steady state
-/// are, because their times are those of the passage of one sector.
+/// or of a crush are, because their times are those of the pass of a sector, or shares of the load.
 bool is_in_window(const std::vector<io::RunReader>& runs, std::size_t run, double time,
                   const std::optional<double>& from, const std::optional<double>& to);
 

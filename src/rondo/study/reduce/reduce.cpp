@@ -22,6 +22,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr long long most_modes = 100000;
+
 bool is_results(const std::filesystem::path& path) {
   std::error_code error;
   return std::filesystem::is_directory(path, error);
@@ -37,7 +39,19 @@ WheelBasis basis_of(const ReduceRequest& r) {
 
 void check(const ReduceRequest& r, WheelBasis basis) {
   if (r.output.empty()) throw request_error("-o", "", "the wheel needs a file", "-o wheel.h5");
+  std::error_code error;
+  if (std::filesystem::exists(r.output, error) && !is_wheel_file(r.output))
+    throw request_error("-o", r.output.string(), "is there, and no file of rondo reduce",
+                        "another name, e.g. -o wheel.h5");
+  if (r.modes && *r.modes > most_modes)
+    throw request_error("--modes", fmt::to_string(*r.modes), "is no number of modes",
+                        fmt::format("a whole number up to {}", most_modes));
   if (basis == WheelBasis::pod) {
+    for (const std::filesystem::path& source : r.sources)
+      if (std::filesystem::is_regular_file(source, error))
+        throw request_error("--basis", name_of(basis),
+                            fmt::format("is of results, and {} is a file", source.string()),
+                            "results directories; or a case without --basis, for its eigenmodes");
     if (!r.settings.empty())
       throw request_error("--set", r.settings.front(), "is of a case, and a POD is of runs",
                           "runs of other cases: rondo run CASE.toml --set KEY=VALUE");
@@ -67,8 +81,9 @@ PodRequest pod_request(const ReduceRequest& r) {
 }
 
 /// The case of a run as one that moves in time, with its wheel at rest off the ground: all that is
-/// asked of it does not depend on the motion but for the spin.
-Case case_of(const io::RunReader& run) {
+/// asked of it does not depend on the motion but for the spin, and nothing on how contact is
+/// solved.
+Case case_of(const io::RunReader& run, bool& free_spin) {
   Case c = read_case(run.directory() / "case.toml");
   if (is_solid(c))
     throw request_error("RUN", run.directory().string(),
@@ -77,11 +92,21 @@ Case case_of(const io::RunReader& run) {
   if (!c.ground)
     throw request_error("RUN", run.directory().string(),
                         "has no ground, on which a reduced wheel rolls", "runs with [ground]");
+  if (!is_held(c))
+    throw request_error("RUN", run.directory().string(),
+                        "the body is free, and a reduced wheel is held by its rim",
+                        "runs of a body with a rim");
+  if (c.rim && c.rim->free_spin) free_spin = true;
   c.analysis = {};
   c.initial = {};
   c.contact_mass = ContactMass::lumped;
   c.implicit.clear();
   c.rim.reset();
+  c.pressures.clear();
+  c.time.scheme = Scheme::symplectic;
+  c.time.step.reset();
+  c.ground->restitution = 0.0;
+  c.ground->impact = contact::Impact::moreau;
   double top = 0.0;
   for (const Vec2 corner : c.ground->shape.profile) top = std::max(top, corner.y);
   c.motion.height = dynamics::Table(top + 2.0 * std::max(1.0, c.disk.outer_radius));
@@ -92,11 +117,12 @@ Case case_of(const io::RunReader& run) {
 
 /// Of all runs; their spins may differ.
 Case case_of(const std::vector<io::RunReader>& runs) {
-  Case first = case_of(runs.front());
+  bool free_spin = false;
+  Case first = case_of(runs.front(), free_spin);
   double most = first.motion.angular_velocity.largest();
   bool same = first.motion.angular_velocity.points().size() == 1;
   for (const io::RunReader& run : runs) {
-    const Case c = case_of(run);
+    const Case c = case_of(run, free_spin);
     const std::string difference = body_difference(body_text(c), body_text(first));
     if (!difference.empty())
       throw request_error(
@@ -107,8 +133,10 @@ Case case_of(const std::vector<io::RunReader>& runs) {
     same = same && c.motion.angular_velocity.points().size() == 1 && spin == most;
     most = std::max(most, spin);
   }
-  const double sign = first.motion.angular_velocity.at(0.0) < 0.0 ? -1.0 : 1.0;
-  if (!same) first.motion.angular_velocity = dynamics::Table({{0.0, 0.0}, {1.0, sign * most}});
+  const double begin = first.motion.angular_velocity.at(0.0);  // stiffens the body, if anything
+  if (free_spin || !same)
+    first.motion.angular_velocity =
+        dynamics::Table({{0.0, begin}, {1.0, begin < 0.0 ? -most : most}});
   return first;
 }
 
@@ -144,7 +172,7 @@ rom::PodModes pod_of(const ReduceRequest& r, const PodRequest& pod,
                         "every displacement is zero: nothing moves",
                         "runs in which the disk is loaded or spins");
   const long long wanted = r.modes.value_or(default_pod_modes);
-  rom::PodModes found = sum.modes(static_cast<int>(std::min<long long>(wanted, 100000)));
+  rom::PodModes found = sum.modes(static_cast<int>(wanted));
   if (const int n = rom::count_modes(found.harmonics); n < wanted && r.warn)
     r.warn(fmt::format("the snapshots have {} modes, fewer than the {} asked for", n, wanted));
   report.left = found.left;
@@ -154,6 +182,8 @@ rom::PodModes pod_of(const ReduceRequest& r, const PodRequest& pod,
 /// Writes the file and reports what is in it.
 void finish(const ReduceRequest& r, const Case& c, const Setup& setup, const PreparedWheel& wheel,
             const WheelOrigin& origin, ReduceReport& report) {
+  for (const std::string& text : wheel.warnings)
+    if (r.warn) r.warn(text);
   write_wheel_file(r.output, c, setup, *wheel.ring, wheel.model, origin);
   report.basis = name_of(origin.basis);
   report.dofs = 2 * static_cast<long long>(setup.model.free.size());
@@ -168,15 +198,14 @@ void finish(const ReduceRequest& r, const Case& c, const Setup& setup, const Pre
 void reduce_case(const ReduceRequest& r, ReduceReport& report) {
   const Case c = read_case(r.sources.front(), r.settings);
   if (c.analysis.kind != AnalysisKind::dynamic)
-    throw case_error(c, "analysis.kind", "a reduced wheel moves in time", "\"dynamic\"");
+    throw case_error(c, "analysis.kind", "a reduced wheel moves in time",
+                     "\"dynamic\"; or run this case, and rondo reduce RESULTS --basis pod");
   Setup setup = build(c, 1);
   PreparedWheel wheel;
   RunOptions options;
   options.reduced = wheel_of_case;
   options.reduced_modes = r.modes;
   prepare_wheel(c, options, {}, setup, wheel);
-  for (const std::string& text : wheel.warnings)
-    if (r.warn) r.warn(text);
   finish(r, c, setup, wheel, {}, report);
 }
 
