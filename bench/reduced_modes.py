@@ -113,7 +113,7 @@ def draw(rows, file):
     energy.set(xlabel="modes", ylabel="share outside the modes", title="energy of the snapshots")
     for axes in (force, time, energy):
         axes.grid(True, which="both", alpha=0.3)
-    figure.legend(*force.get_legend_handles_labels(), loc="outside lower center", ncols=4, fontsize=8)
+    energy.legend(*force.get_legend_handles_labels(), loc="lower left", fontsize=8)
     figure.savefig(file, dpi=130)
 
 
