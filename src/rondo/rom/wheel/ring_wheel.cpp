@@ -47,6 +47,10 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
   compliance_.resize(residuals.front().blocks.size());
   const std::size_t n = ring.contact.size() * at(ring.n_sectors());
   memory_.resize(n);
+  for (std::size_t node = 0; node < n; ++node) {
+    sector_.push_back(static_cast<int>(node) / n_contact_);
+    local_.push_back(static_cast<int>(node) % n_contact_);
+  }
   active_.reserve(n);
   near_.reserve(n);
   solved_.reserve(n);
@@ -201,6 +205,7 @@ Eigen::Map<const Eigen::MatrixXd> RingWheel::compliance(int lag) const {
 
 /// 2 × 2 block of G between two nodes, of a spin.
 RingWheel::Block RingWheel::beyond_modes(const Shares& shares, int to, int from) const noexcept {
+  if (model_.residuals.size() == 1) return answer(model_.residuals[0].blocks.data(), to, from);
   Block sum{};
   for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
     const Block g = answer(model_.residuals[a].blocks.data(), to, from);
@@ -213,8 +218,7 @@ RingWheel::Block RingWheel::beyond_modes(const Shares& shares, int to, int from)
 RingWheel::Block RingWheel::answer(const double* table, int to, int from) const noexcept {
   const int lag = sector(to) - sector(from);
   const Index size = ring_.n_contact(), d = lag < 0 ? lag + ring_.n_sectors() : lag;
-  const double* block =
-      table + d * size * size + 2 * (from % n_contact_) * size + 2 * (to % n_contact_);
+  const double* block = table + d * size * size + 2 * (local(from)) * size + 2 * (local(to));
   return {block[0], block[size], block[1], block[size + 1]};
 }
 

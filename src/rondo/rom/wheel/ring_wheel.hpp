@@ -238,12 +238,18 @@ class RingWheel {
   void write_field(double angle, const Eigen::VectorXd& constant, Coefficients&& coefficients,
                    Filtered&& filtered, std::span<Vec2> field) const;
   [[nodiscard]] Vec2 arm(int node) const noexcept {
-    const Complex x = ring_.place[static_cast<std::size_t>(
-        ring_.contact[static_cast<std::size_t>(node % n_contact_)])];
+    const Complex x =
+        ring_.place[static_cast<std::size_t>(ring_.contact[static_cast<std::size_t>(local(node))])];
     return {x.re, x.im};
   }
   [[nodiscard]] bool is_whole() const noexcept { return ring_.n_sectors() == 1; }
-  [[nodiscard]] int sector(int node) const noexcept { return node / n_contact_; }
+  [[nodiscard]] int sector(int node) const noexcept {
+    return sector_[static_cast<std::size_t>(node)];
+  }
+  /// Place among the contact nodes of a sector.
+  [[nodiscard]] int local(int node) const noexcept {
+    return local_[static_cast<std::size_t>(node)];
+  }
   [[nodiscard]] Memory& memory_of(int node) noexcept {
     return memory_[static_cast<std::size_t>(node)];
   }
@@ -269,8 +275,9 @@ class RingWheel {
   std::optional<LeftBehind> left_;  ///< of a ring of one sector
   bool on_moving_rim_ = false;      ///< in the law
   std::vector<Modes> modes_;
-  std::vector<Memory> memory_;  ///< (N C)
-  std::vector<int> active_;     ///< nodes with a filtered force, ascending
+  std::vector<Memory> memory_;       ///< (N C)
+  std::vector<int> sector_, local_;  ///< (contact nodes): divisions took a third of a step
+  std::vector<int> active_;          ///< nodes with a filtered force, ascending
   std::vector<Near> near_;
   std::vector<std::size_t> solved_;    ///< places of the candidates in near_
   std::vector<contact::Touch> touch_;  ///< of these, at `place`

@@ -56,7 +56,7 @@ std::vector<std::size_t> RingWheel::touching(const WheelMotion& m, std::span<con
   const Complex frame = rotation(m.angle_next);
   for (std::size_t i = 0; i < near_.size(); ++i) {
     Near& near = near_[i];
-    const std::size_t row = at(ring_.contact[at(near.node % n_contact_)]);
+    const std::size_t row = at(ring_.contact[at(local(near.node))]);
     const Vec2 place =
         near.turn * arm(near.node) + frame * u[ring_.stiffness.node(row, at(sector(near.node)))];
     if (ground_.facet_near(m.center_next + place).gap > touching_share * model_.radius) continue;
@@ -207,7 +207,7 @@ void RingWheel::write_field(double angle, const Eigen::VectorXd& constant,
     else
       for (const int node : active_) {
         const Vec2 le = filtered(memory_of(node));
-        const int d = (j - sector(node) + n) % n, c = 2 * (node % n_contact_);
+        const int d = (j - sector(node) + n) % n, c = 2 * (local(node));
         for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
           const Eigen::Map<const Eigen::MatrixXd> all(
               model_.residuals[a].fields.data() + d * size * n_rows, n_rows, size);
@@ -222,7 +222,7 @@ void RingWheel::write_field(double angle, const Eigen::VectorXd& constant,
 void RingWheel::contact_displacement(double angle, std::span<Vec2> u) const {
   const Complex frame = rotation(angle);
   for (int node = 0, n = static_cast<int>(memory_.size()); node < n; ++node) {
-    const auto row = at(ring_.contact[at(node % n_contact_)]), j = at(sector(node));
+    const auto row = at(ring_.contact[at(local(node))]), j = at(sector(node));
     const Complex turn = ring_.stiffness.turn[j];
     u[ring_.stiffness.node(row, j)] = turn * displacement(node, frame * turn, 1.0);
   }
