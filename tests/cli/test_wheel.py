@@ -116,6 +116,7 @@ class Wheel(WheelTest):
             '[ground]\nprofile = "flat"\nfriction = 0.4\n', ""))
         refused("moves in time", case=STEADY)
         refused("is no step of a reduced wheel", options=("--reduced-step", "-1"))
+        refused("up to time.end = 0.2", options=("--reduced-step", "0.3"))
         refused("a reduced wheel has one scheme", options=("--reduced-step", "explicit"))
         refused("is no number of modes", options=("--modes", "-3"))
 

@@ -38,12 +38,12 @@ class Help(unittest.TestCase):
             help_text.read("no help\n")
 
     def test_a_blank_of_a_long_name_before_the_column(self):
-        head = "  --circumferential INT:INT in [1 - 1000000]"
+        head = "  --contact-stride INT:INT in [1 - 1000000]"
         self.assertEqual(head[help_text.COLUMN - 1], " ")
-        text = help_text.read(f"what\n\nOptions:\n{head}\n{' ' * 30}nodes\n  --largest-tolerance FLOAT  the same\n")
+        text = help_text.read(f"what\n\nOptions:\n{head}\n{' ' * 30}nodes\n  --velocity-tolerance FLOAT  the same\n")
         self.assertEqual([(one.names[0], one.meaning, one.allowed) for one in text.options],
-                         [("--circumferential", "nodes", "1 to 1000000"),
-                          ("--largest-tolerance", "the same", "")])
+                         [("--contact-stride", "nodes", "1 to 1000000"),
+                          ("--velocity-tolerance", "the same", "")])
 
 
 class Pages(unittest.TestCase):

@@ -17,7 +17,6 @@ struct Requests {
   RunOptions run;
   ModesRequest modes;
   PodRequest pod;
-  ReduceRequest reduce;
   SweepRequest sweep;
   FmuRequest fmu;
   MatricesRequest matrices;
@@ -81,8 +80,7 @@ TEST(Options, TextsHaveUnitChoicesAndDefault) {
             "Field: displacement | velocity | contact");
   EXPECT_EQ(default_text(row(options, "--reconstruct")), "20");
   EXPECT_EQ(default_text(row(options, "--from")), "");
-  ReduceRequest reduce;
-  EXPECT_EQ(default_text(row(reduce_options(reduce), "--contact-weight")), "10");
+  EXPECT_EQ(default_text(row(options, "--memory")), "2GB");
 }
 
 TEST(Options, SomethingIsGivenWhereTheRequestHoldsIt) {

@@ -56,13 +56,15 @@ ExpectedContact expected(const Case& c, bool led, const Setup& setup) {
 }
 
 /// The step that is asked for, else one that sees contact and the nodes that pass it.
-double step_of(const RunOptions& options, const ExpectedContact& e) {
+double step_of(const Case& c, const RunOptions& options, const ExpectedContact& e) {
   if (options.reduced_step) {
-    if (*options.reduced_step > 0.0 && std::isfinite(*options.reduced_step))
+    if (*options.reduced_step > 0.0 && *options.reduced_step <= c.time.end)
       return *options.reduced_step;
     throw request_error("--reduced-step", fmt::format("{:.9g}", *options.reduced_step),
                         "is no step of a reduced wheel",
-                        "a number of seconds above 0, e.g. 0.0004; or no --reduced-step");
+                        fmt::format("a number of seconds above 0 and up to time.end = {:.6g}, e.g. "
+                                    "0.0004; or no --reduced-step",
+                                    c.time.end));
   }
   double step = longest_step;
   if (e.speed > 0.0 && e.length > 0.0)
@@ -223,7 +225,7 @@ void begin_wheel(const Case& c, const RunOptions& options, std::optional<double>
   move_masses(c, setup);
   wheel.full_step = setup.model.dt;
   wheel.expected = expected(c, led.has_value(), setup);
-  setup.model.dt = step_of(options, wheel.expected);
+  setup.model.dt = step_of(c, options, wheel.expected);
   setup.n_steps = count_steps(c, setup.model.dt);
   const dynamics::Model& model = setup.model;
   if (!model.sector) wheel.whole = rom::one_sector(whole_of(setup));
