@@ -17,6 +17,7 @@ struct Requests {
   RunOptions run;
   ModesRequest modes;
   PodRequest pod;
+  ReduceRequest reduce;
   SweepRequest sweep;
   FmuRequest fmu;
   MatricesRequest matrices;
