@@ -36,8 +36,8 @@ struct RunOptions {
   std::optional<long long> reduced_modes;  ///< of a wheel made of the case; none: chosen
   std::optional<double> reduced_step;      ///< of a reduced wheel; none: chosen            [s]
   bool reduced_estimate = false;           ///< of its errors
-  std::filesystem::path modes_from;  ///< run whose modes start a crush by LATIN-PGD; or empty
-  std::string modes_told;            ///< its name in run.json; empty: modes_from
+  std::filesystem::path modes_from;        ///< run whose modes start a crush by LATIN-PGD; or empty
+  std::string modes_told;                  ///< its name in run.json; empty: modes_from
 };
 
 /// How a run ended. `failed` is a numerical outcome: a number not finite, or a residual too large.
