@@ -162,7 +162,7 @@ TEST(LeftBehind, AForceStaysInSpaceBetweenTheNodesThatComeThere) {
   left.add(0, {2.0, 4.0}, 0.0);
   ASSERT_EQ(left.shares().size(), 1U);
   EXPECT_EQ(left.shares()[0].node, 0);
-  EXPECT_EQ(left.shares()[0].force, Vec2(2.0, 4.0));
+  EXPECT_EQ(left.shares()[0].force, (Vec2{2.0, 4.0}));
   const auto shares_after = [&](double turn) {
     left.clear();
     left.add(0, {0.0, 4.0}, turn);
