@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -56,15 +57,19 @@ ExpectedContact expected(const Case& c, bool led, const Setup& setup) {
 }
 
 /// The step that is asked for, else one that sees contact and the nodes that pass it.
-double step_of(const Case& c, const RunOptions& options, const ExpectedContact& e) {
+/// @param end of the run; of a wheel that is led, without a bound [s]
+double step_of(double end, const RunOptions& options, const ExpectedContact& e) {
   if (options.reduced_step) {
-    if (*options.reduced_step > 0.0 && *options.reduced_step <= c.time.end)
+    if (*options.reduced_step > 0.0 && *options.reduced_step <= end &&
+        std::isfinite(*options.reduced_step))
       return *options.reduced_step;
-    throw request_error("--reduced-step", fmt::format("{:.9g}", *options.reduced_step),
-                        "is no step of a reduced wheel",
-                        fmt::format("a number of seconds above 0 and up to time.end = {:.6g}, e.g. "
-                                    "0.0004; or no --reduced-step",
-                                    c.time.end));
+    throw request_error(
+        "--reduced-step", fmt::format("{:.9g}", *options.reduced_step),
+        "is no step of a reduced wheel",
+        fmt::format(
+            "a number of seconds above 0{}, e.g. 0.0004; or no "
+            "--reduced-step",
+            std::isfinite(end) ? fmt::format(" and up to time.end = {:.6g}", end) : std::string()));
   }
   double step = longest_step;
   if (e.speed > 0.0 && e.length > 0.0)
@@ -225,7 +230,8 @@ void begin_wheel(const Case& c, const RunOptions& options, std::optional<double>
   move_masses(c, setup);
   wheel.full_step = setup.model.dt;
   wheel.expected = expected(c, led.has_value(), setup);
-  setup.model.dt = step_of(c, options, wheel.expected);
+  setup.model.dt =
+      step_of(led ? std::numeric_limits<double>::infinity() : c.time.end, options, wheel.expected);
   setup.n_steps = count_steps(c, setup.model.dt);
   const dynamics::Model& model = setup.model;
   if (!model.sector) wheel.whole = rom::one_sector(whole_of(setup));
