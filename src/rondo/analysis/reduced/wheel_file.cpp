@@ -9,7 +9,6 @@
 #include <cmath>
 #include <complex>
 #include <cstdint>
-#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -22,7 +21,7 @@
 namespace rondo::study {
 namespace {
 
-using Eigen::Index, Eigen::MatrixXcd, Eigen::MatrixXd, Eigen::VectorXd;
+using Eigen::Index, Eigen::MatrixXcd, Eigen::VectorXd;
 using io::h5::File, io::h5::Label, io::h5::Shape;
 using rom::RingHarmonic;
 

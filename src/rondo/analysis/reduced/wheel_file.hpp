@@ -37,8 +37,8 @@ void write_wheel_file(const std::filesystem::path& file, const Case& c, const Se
                       const rom::Ring& ring, const rom::WheelModel& model,
                       const WheelOrigin& origin);
 
-/// @throws InputError: no such file, a model of an earlier
-/// version, another body; FileError: damaged, or not a reduced wheel
+/// @throws InputError: no such file, a model of an earlier version, another body; FileError:
+/// damaged, or not a reduced wheel
 WheelFile read_wheel_file(const std::filesystem::path& file, const Case& c, const Setup& setup,
                           const rom::Ring& ring);
 

@@ -202,8 +202,7 @@ constexpr std::array limits{
           "contact nodes of a reduced wheel have no mass, hence no restitution"},
     Limit{has::energy_safe, has::reduced, any,
           "ground.impact = \"energy-safe\" is a law of velocities, and that of a reduced wheel is "
-          "one "
-          "of gaps"},
+          "one of gaps"},
     Limit{has::friction_law, has::reduced, any, "a reduced wheel has one coefficient of friction"},
 };
 

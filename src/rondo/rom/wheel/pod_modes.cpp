@@ -13,7 +13,7 @@
 namespace rondo::rom {
 namespace {
 
-using Eigen::Index, Eigen::MatrixXcd, Eigen::VectorXcd, Eigen::VectorXd;
+using Eigen::Index, Eigen::MatrixXcd, Eigen::VectorXcd;
 
 /// Energies of less than this share of the largest are round-off of the sums.
 constexpr double least_energy = 1e-13;

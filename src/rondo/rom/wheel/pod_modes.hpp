@@ -31,12 +31,12 @@ class FieldHarmonics {
   [[nodiscard]] PodModes modes(int wanted) const;
 
  private:
-  double energy_ = 0.0;
   const Ring& ring_;
-  std::vector<Eigen::Index> rows_;      ///< of the nodes with mass
-  Eigen::VectorXd root_;                ///< (inner) √M
-  Eigen::MatrixXcd waves_;              ///< (harmonics, N) e^{-ikφ_j}/N
-  Eigen::MatrixXd field_;               ///< (N, inner) in the frames of the sectors
+  std::vector<Eigen::Index> rows_;  ///< of the nodes with mass
+  Eigen::VectorXd root_;            ///< (inner) √M
+  Eigen::MatrixXcd waves_;          ///< (harmonics, N) e^{-ikφ_j}/N
+  Eigen::MatrixXd field_;           ///< (N, inner) √M u in the frames of the sectors
+  double energy_ = 0.0;
   std::vector<Eigen::MatrixXcd> sums_;  ///< (inner, inner) Σ M^½ U_k U_kᴴ M^½ of each harmonic
 };
 

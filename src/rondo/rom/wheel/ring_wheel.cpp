@@ -218,7 +218,7 @@ RingWheel::Block RingWheel::beyond_modes(const Shares& shares, int to, int from)
 RingWheel::Block RingWheel::answer(const double* table, int to, int from) const noexcept {
   const int lag = sector(to) - sector(from);
   const Index size = ring_.n_contact(), d = lag < 0 ? lag + ring_.n_sectors() : lag;
-  const double* block = table + d * size * size + 2 * (local(from)) * size + 2 * (local(to));
+  const double* block = table + d * size * size + 2 * local(from) * size + 2 * local(to);
   return {block[0], block[size], block[1], block[size + 1]};
 }
 

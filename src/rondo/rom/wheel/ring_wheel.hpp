@@ -276,7 +276,7 @@ class RingWheel {
   bool on_moving_rim_ = false;      ///< in the law
   std::vector<Modes> modes_;
   std::vector<Memory> memory_;       ///< (N C)
-  std::vector<int> sector_, local_;  ///< (contact nodes): divisions took a third of a step
+  std::vector<int> sector_, local_;  ///< (N C) of each contact node, so that none is divided for
   std::vector<int> active_;          ///< nodes with a filtered force, ascending
   std::vector<Near> near_;
   std::vector<std::size_t> solved_;    ///< places of the candidates in near_

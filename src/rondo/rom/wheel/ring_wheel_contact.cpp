@@ -41,7 +41,7 @@ Vec2 by_rim(const std::array<Vec2, 3>& moved, const std::array<Vec2, 3>& reply,
 /// @param filter share of the filtered
 /// forces that is left at the end of the step
 Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
-  const Index c = Index{2} * (local(node));
+  const Index c = Index{2} * local(node);
   const Index row = Index{2} * ring_.contact[at(local(node))];
   Vec2 u{centrifugal_[row], centrifugal_[row + 1]};
   for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
@@ -222,7 +222,7 @@ void RingWheel::solve(const WheelMotion& m, double friction, WheelReport& report
 
 /// Adds φ_cᴴ of a force in the frame of its sector to the forces on the modes.
 void RingWheel::push_modes(const Near& near, Vec2 own) {
-  const Index row = Index{2} * (local(near.node));
+  const Index row = Index{2} * local(near.node);
   const Vec2 part = own / static_cast<double>(ring_.n_sectors());
   for_waves(harmonics_, near.wave, [&](std::size_t h, Complex wave) {
     const Matrix& shape = harmonics_[h].contact;

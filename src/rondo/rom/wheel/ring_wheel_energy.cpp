@@ -34,7 +34,7 @@ RingWheel::Products RingWheel::products(const Shares& shares) const {
 /// modes. @param turn e^{iψ} of the sector, where the modes are
 double RingWheel::work_on_modes(Complex turn, int node, Vec2 own) const {
   if (own == Vec2{}) return 0.0;
-  const Index c = Index{2} * (local(node));
+  const Index c = Index{2} * local(node);
   double power = 0.0;
   for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
     const std::complex<double>* rate = modes_[h].middle.data() + c;

@@ -207,7 +207,7 @@ void RingWheel::write_field(double angle, const Eigen::VectorXd& constant,
     else
       for (const int node : active_) {
         const Vec2 le = filtered(memory_of(node));
-        const int d = (j - sector(node) + n) % n, c = 2 * (local(node));
+        const int d = (j - sector(node) + n) % n, c = 2 * local(node);
         for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
           const Eigen::Map<const Eigen::MatrixXd> all(
               model_.residuals[a].fields.data() + d * size * n_rows, n_rows, size);

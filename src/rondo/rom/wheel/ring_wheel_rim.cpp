@@ -116,7 +116,7 @@ Eigen::Matrix3d RingWheel::momenta_by_rate(double spin) const {
 void RingWheel::find_columns(const WheelMotion& m) {
   const double dt = settings_.dt, half = 0.5 * dt * dt, share = dt * settings_.theta;
   for (Near& near : near_) {
-    const Index c = Index{2} * (local(near.node));
+    const Index c = Index{2} * local(near.node);
     near.still = near.free;
     near.moved = {Vec2{half, 0.0}, Vec2{0.0, half}, half * turn90(near.free)};
     near.push = {Vec2{share, 0.0}, Vec2{0.0, share}, share * turn90(near.free)};

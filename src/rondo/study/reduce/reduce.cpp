@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <system_error>
@@ -115,7 +114,7 @@ Case case_of(const io::RunReader& run, bool& free_spin) {
   return c;
 }
 
-/// Of all runs; their spins may differ.
+/// The case of all runs together. They have one body; their spins may differ.
 Case case_of(const std::vector<io::RunReader>& runs) {
   bool free_spin = false;
   Case first = case_of(runs.front(), free_spin);
@@ -181,11 +180,11 @@ rom::PodModes pod_of(const ReduceRequest& r, const PodRequest& pod,
 
 /// Writes the file and reports what is in it.
 void finish(const ReduceRequest& r, const Case& c, const Setup& setup, const PreparedWheel& wheel,
-            const WheelOrigin& origin, ReduceReport& report) {
+            const std::vector<std::string>& behind, ReduceReport& report) {
   for (const std::string& text : wheel.warnings)
     if (r.warn) r.warn(text);
-  write_wheel_file(r.output, c, setup, *wheel.ring, wheel.model, origin);
-  report.basis = name_of(origin.basis);
+  write_wheel_file(r.output, c, setup, *wheel.ring, wheel.model, {wheel.basis, behind});
+  report.basis = name_of(wheel.basis);
   report.dofs = 2 * static_cast<long long>(setup.model.free.size());
   report.modes = wheel.n_modes();
   report.highest = wheel.highest();
@@ -220,9 +219,9 @@ void reduce_runs(const ReduceRequest& r, ReduceReport& report) {
   wheel.basis = WheelBasis::pod;
   rom::PodModes found = pod_of(r, pod, runs, *wheel.ring, report);
   complete_wheel(c, {}, std::move(found.harmonics), setup, wheel);
-  WheelOrigin origin{WheelBasis::pod, {}};
-  for (const io::RunReader& run : runs) origin.runs.push_back(run.directory().string());
-  finish(r, c, setup, wheel, origin, report);
+  std::vector<std::string> behind;
+  for (const io::RunReader& run : runs) behind.push_back(run.directory().string());
+  finish(r, c, setup, wheel, behind, report);
 }
 
 }  // namespace
