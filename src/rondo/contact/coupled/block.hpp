@@ -37,6 +37,18 @@ constexpr Block block_of(Complex a) noexcept {
   return {a.re, -a.im, a.im, a.re};
 }
 
+/// A 2 × 2 block by what it does to z = x + iy: same z + mirrored z̄.
+struct ComplexBlock {
+  Complex same, mirrored;
+};
+constexpr ComplexBlock complex_block(const Block& a) noexcept {
+  return {{0.5 * (a[0] + a[3]), 0.5 * (a[2] - a[1])}, {0.5 * (a[0] - a[3]), 0.5 * (a[2] + a[1])}};
+}
+constexpr Block block_of(const ComplexBlock& a) noexcept {
+  return {a.same.re + a.mirrored.re, a.mirrored.im - a.same.im, a.same.im + a.mirrored.im,
+          a.same.re - a.mirrored.re};
+}
+
 /// A response G of one node to an impulse on another, between their contact frames.
 /// @param to, from  turn velocities of the one and of the other into their contact frames
 constexpr Block in_frames(Complex to, const Block& g, Complex from) noexcept {

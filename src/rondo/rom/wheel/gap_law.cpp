@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/rom/wheel/gap_law.hpp"
 
-#include <lapacke.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
@@ -21,6 +19,46 @@ constexpr int iterations_at_once = 12;  ///< on all statuses
 constexpr int most_iterations = 60;
 constexpr double solved = 1e-9;  ///< residual, over the largest force
 
+/// Solves A x = b in place, with row pivots. Systems are so small that calls of LAPACK would take
+/// longer than the arithmetic.
+void eliminate(Eigen::Map<Eigen::MatrixXd> a, double* b) {
+  const Index n = a.rows();
+  for (Index k = 0; k < n; ++k) {
+    double* pivots = &a(0, k);
+    Index best = k;
+    for (Index i = k + 1; i < n; ++i)
+      if (std::abs(pivots[i]) > std::abs(pivots[best])) best = i;
+    if (best != k) {
+      for (Index j = k; j < n; ++j) std::swap(a(k, j), a(best, j));
+      std::swap(b[k], b[best]);
+    }
+    const double over = 1.0 / pivots[k];
+    for (Index i = k + 1; i < n; ++i) {
+      pivots[i] *= over;
+      b[i] -= pivots[i] * b[k];
+    }
+    const double* __restrict by = pivots;
+    Index j = k + 1;
+    for (; j + 1 < n; j += 2) {  // two at once: half of the loops
+      double* __restrict one = &a(0, j);
+      double* __restrict two = one + n;
+      const double top = one[k], also = two[k];
+      for (Index i = k + 1; i < n; ++i) {
+        one[i] -= by[i] * top;
+        two[i] -= by[i] * also;
+      }
+    }
+    if (j == n) continue;
+    double* __restrict last = &a(0, j);
+    for (Index i = k + 1; i < n; ++i) last[i] -= by[i] * last[k];
+  }
+  for (Index k = n; k-- > 0;) {
+    const double* column = &a(0, k);
+    b[k] /= column[k];
+    for (Index i = 0; i < k; ++i) b[i] -= column[i] * b[k];
+  }
+}
+
 }  // namespace
 
 GapLaw::GapLaw(std::size_t most_contacts)
@@ -28,8 +66,9 @@ GapLaw::GapLaw(std::size_t most_contacts)
       compliance_(4 * most_ * most_),
       matrix_(4 * most_ * most_),
       unknown_(2 * most_),
-      force_(2 * most_),
-      pivots_(2 * most_) {}
+      force_(2 * most_) {
+  rows_.reserve(2 * most_);
+}
 
 Eigen::Map<Eigen::MatrixXd> GapLaw::compliance(std::size_t n) {
   RONDO_DEMAND(n <= most_, n, most_);
@@ -39,42 +78,32 @@ Eigen::Map<Eigen::MatrixXd> GapLaw::compliance(std::size_t n) {
 
 /// Forces of the statuses at hand: gaps of those that press are closed, those that stick stay.
 void GapLaw::settle(std::span<GapContact> contacts, double friction) {
-  const Eigen::Map<const Eigen::MatrixXd> w(compliance_.data(), size_, size_);
-  const auto presses = [](const GapContact& c) { return c.status != Status::open; };
   const auto sticks = [](const GapContact& c) { return c.status == Status::stick; };
-  Index n = 0;
-  for (const GapContact& c : contacts) n += presses(c) + sticks(c);
-  if (n == 0) {
-    for (GapContact& c : contacts) c.normal = c.shear = 0.0;
-    return;
+  rows_.clear();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (contacts[i].status == Status::open) continue;
+    rows_.push_back(static_cast<Index>(2 * i));
+    unknown_[rows_.size() - 1] = -contacts[i].free_gap;
+    if (!sticks(contacts[i])) continue;
+    rows_.push_back(static_cast<Index>(2 * i + 1));
+    unknown_[rows_.size() - 1] = -contacts[i].free_slip;
   }
+  const auto n = static_cast<Index>(rows_.size());
   Eigen::Map<Eigen::MatrixXd> a(matrix_.data(), n, n);
-  Index column = 0;
-  for (std::size_t j = 0; j < contacts.size(); ++j) {
-    const GapContact& c = contacts[j];
-    if (!presses(c)) continue;
-    const auto normal = static_cast<Index>(2 * j);
-    const double along = c.status == Status::slip ? -c.side * friction : 0.0;
-    Index row = 0;
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      if (!presses(contacts[i])) continue;
-      for (Index r = 0; r < (sticks(contacts[i]) ? 2 : 1); ++r, ++row) {
-        const Index at = static_cast<Index>(2 * i) + r;
-        a(row, column) = w(at, normal) + along * w(at, normal + 1);
-        if (sticks(c)) a(row, column + 1) = w(at, normal + 1);
-      }
+  for (Index j = 0; j < n; ++j) {
+    const GapContact& c = contacts[at(rows_[at(j)] / 2)];
+    const double* by = compliance_.data() + size_ * rows_[at(j)];
+    if (c.status == Status::slip) {
+      const double along = -c.side * friction;
+      for (Index i = 0; i < n; ++i) a(i, j) = by[rows_[at(i)]] + along * by[size_ + rows_[at(i)]];
+    } else {
+      for (Index i = 0; i < n; ++i) a(i, j) = by[rows_[at(i)]];
     }
-    unknown_[at(column)] = -c.free_gap;
-    if (sticks(c)) unknown_[at(column + 1)] = -c.free_slip;
-    column += sticks(c) ? 2 : 1;
   }
-  const auto size = static_cast<lapack_int>(n);
-  if (LAPACKE_dgesv_work(LAPACK_COL_MAJOR, size, 1, matrix_.data(), size, pivots_.data(),
-                         unknown_.data(), size) != 0)
-    std::fill_n(unknown_.begin(), n, std::numeric_limits<double>::quiet_NaN());
+  eliminate(a, unknown_.data());
   const double* x = unknown_.data();
   for (GapContact& c : contacts) {
-    c.normal = presses(c) ? *x++ : 0.0;
+    c.normal = c.status == Status::open ? 0.0 : *x++;
     c.shear = sticks(c) ? *x++ : c.status == Status::slip ? -c.side * friction * c.normal : 0.0;
   }
 }
@@ -123,7 +152,7 @@ double GapLaw::residual(std::span<const GapContact> contacts, double friction) c
   for (const GapContact& c : contacts) {
     const double normal = std::max(0.0, c.normal - c.gap / mean_), most = friction * normal;
     const double shear = std::clamp(c.shear - c.slip / mean_, -most, most);
-    const double missed = std::hypot(c.normal - normal, c.shear - shear);
+    const double missed = std::abs(c.normal - normal) + std::abs(c.shear - shear);
     if (!(missed <= worst)) worst = missed;  // also not a number
     largest = std::max({largest, std::abs(c.normal), std::abs(c.free_gap) / mean_});
   }

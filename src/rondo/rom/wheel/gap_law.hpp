@@ -50,7 +50,7 @@ class GapLaw {
   std::size_t most_;
   std::vector<double> compliance_, matrix_;
   std::vector<double> unknown_, force_;
-  std::vector<int> pivots_;
+  std::vector<Eigen::Index> rows_;  ///< of the compliance, of the unknown forces
   Eigen::Index size_ = 0;
   double mean_ = 0.0;  ///< of the compliance's diagonal                             [m²/N]
 };

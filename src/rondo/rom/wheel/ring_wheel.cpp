@@ -19,8 +19,8 @@ using Eigen::Index;
 RingWheel::Modes::Modes(const RingHarmonic& of) {
   const Index r = of.squares.size(), c = of.contact.rows();
   for (Vector* v : {&state, &before, &work, &shift, &twist}) v->setZero(2 * r);
-  for (Vector* v : {&force, &outside, &left, &pushed}) v->setZero(r);
-  for (Vector* v : {&contact, &middle, &shift_contact, &twist_contact, &by_rate, &by_place})
+  for (Vector* v : {&force, &outside, &held, &left, &pushed}) v->setZero(r);
+  for (Vector* v : {&ground, &contact, &shift_contact, &twist_contact, &by_rate, &by_place})
     v->setZero(c);
   stiff.setZero(r);
   inverse.setZero(r, r);
@@ -44,15 +44,20 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
   RONDO_DEMAND(settings.dt > 0.0 && model.radius > 0.0 && settings.theta >= 0.5, settings.dt,
                model.radius, settings.theta);
   centrifugal_ = residuals.front().centrifugal;
-  compliance_.resize(residuals.front().blocks.size());
+  beyond_.resize(residuals.front().blocks.size() / 4);
+  compliance_.resize(beyond_.size());
   const std::size_t n = ring.contact.size() * at(ring.n_sectors());
   memory_.resize(n);
   for (std::size_t node = 0; node < n; ++node) {
     sector_.push_back(static_cast<int>(node) / n_contact_);
     local_.push_back(static_cast<int>(node) % n_contact_);
+    reference_.push_back(ring.stiffness.turn[at(sector_.back())] * arm(static_cast<int>(node)));
   }
   active_.reserve(n);
   near_.reserve(n);
+  seen_.reserve(n);
+  reply_.resize(4 * n * n);
+  moved_.resize(2 * n);
   solved_.reserve(n);
   touch_.reserve(n);
   law_.reserve(n);
@@ -75,6 +80,18 @@ void RingWheel::set_residual(double spin) {
     shares_[a] = share;
     centrifugal_ += share * model_.residuals[a].centrifugal;
   }
+  const Index size = ring_.n_contact();
+  Block* out = beyond_.data();
+  for (Index column = 0; column < size * ring_.n_sectors(); column += 2)
+    for (Index row = 0; row < size; row += 2, ++out) {
+      *out = {};
+      for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
+        const double* g = model_.residuals[a].blocks.data() + column * size + row;
+        const double share = shares_[a];
+        *out =
+            contact::sum(*out, {share * g[0], share * g[size], share * g[1], share * g[size + 1]});
+      }
+    }
 }
 
 /// Finds the matrices of a harmonic. With h = ½Δt the middle of the step solves
@@ -110,7 +127,7 @@ void RingWheel::use_spin(const WheelMotion& m) {
 }
 
 void RingWheel::take_spin(const WheelMotion& m, double rate, double end) {
-  shares_before_ = shares_;
+  residual_before_ = 0.5 * products().end;
   spin_ = end;
   spin_rate_ = rate;
   has_matrices_ = true;
@@ -133,49 +150,54 @@ double RingWheel::waves_at(const WheelMotion& m) const noexcept {
 void RingWheel::fill_compliance() {
   const double lag = settings_.stiffness_damping / settings_.dt;
   const Index size = ring_.n_contact();
-  for (std::size_t e = 0; e < compliance_.size(); ++e) {
-    double g = 0.0;
-    for (std::size_t a = 0; a < model_.residuals.size(); ++a)
-      g += shares_[a] * model_.residuals[a].blocks[e];
-    compliance_[e] = g / (1.0 + lag);
-  }
   const int n = ring_.n_sectors();
-  for (std::size_t h = 0; h < harmonics_.size(); ++h) {
-    const RingHarmonic& of = harmonics_[h];
-    const Matrix g = settings_.theta * settings_.dt * of.weight() / n *
-                     (modes_[h].lever * (of.contact * modes_[h].inverse * of.contact.adjoint()));
-    for (int d = 0; d < n; ++d) {
-      const Complex turn = ring_.stiffness.turn[at(of.k * d % n)];
-      Eigen::Map<Eigen::MatrixXd>(compliance_.data() + d * size * size, size, size) +=
-          turn.re * g.real() - turn.im * g.imag();
+  std::vector<Matrix> of_modes;
+  for (std::size_t h = 0; h < harmonics_.size(); ++h)
+    of_modes.push_back(settings_.theta * settings_.dt * harmonics_[h].weight() / n *
+                       (modes_[h].lever * (harmonics_[h].contact * modes_[h].inverse *
+                                           harmonics_[h].contact.adjoint())));
+  Eigen::MatrixXd w(size, size);
+  const Block* g = beyond_.data();
+  contact::ComplexBlock* out = compliance_.data();
+  for (int d = 0; d < n; ++d) {
+    w.setZero();
+    for (std::size_t h = 0; h < harmonics_.size(); ++h) {
+      const Complex turn = ring_.stiffness.turn[at(harmonics_[h].k * d % n)];
+      w += turn.re * of_modes[h].real() - turn.im * of_modes[h].imag();
     }
+    for (Index from = 0; from < size; from += 2)
+      for (Index to = 0; to < size; to += 2, ++g, ++out) {
+        *out = contact::complex_block(
+            {(*g)[0] / (1.0 + lag) + w(to, from), (*g)[1] / (1.0 + lag) + w(to, from + 1),
+             (*g)[2] / (1.0 + lag) + w(to + 1, from), (*g)[3] / (1.0 + lag) + w(to + 1, from + 1)});
+        out->same = ring_.stiffness.turn[at(d)] * out->same;
+      }
   }
 }
 
 /// Fills W of a ring of one sector, for the pairs of near nodes alone.
 void RingWheel::fill_near_compliance() {
   const double lag = settings_.stiffness_damping / settings_.dt;
-  const Index size = ring_.n_contact(), n = static_cast<Index>(near_.size());
-  const auto entry = [&](Index i, int c) { return Index{2} * near_[at(i)].node + c; };
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j) {
-      const Block g = beyond_modes(shares_, near_[at(i)].node, near_[at(j)].node);
-      for (int e = 0; e < 4; ++e)
-        compliance_[at(entry(j, e % 2) * size + entry(i, e / 2))] = g[at(e)] / (1.0 + lag);
-    }
+  const Index n = static_cast<Index>(near_.size());
+  Eigen::MatrixXd w = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   for (std::size_t h = 0; h < harmonics_.size(); ++h) {
     const Index r = harmonics_[h].squares.size();
     Eigen::MatrixXd shapes(2 * n, r);
-    for (Index i = 0; i < 2 * n; ++i)
-      shapes.row(i) = harmonics_[h].contact.row(entry(i / 2, static_cast<int>(i % 2))).real();
+    for (Index i = 0; i < n; ++i)
+      shapes.middleRows<2>(2 * i) =
+          harmonics_[h].contact.middleRows<2>(Index{2} * near_[at(i)].node).real();
     const Eigen::MatrixXd reply = settings_.theta * settings_.dt *
                                   (modes_[h].lever * modes_[h].inverse).real() * shapes.transpose();
-    const Eigen::MatrixXd answer = shapes * reply;
-    for (Index i = 0; i < 2 * n; ++i)
-      for (Index j = 0; j < 2 * n; ++j)
-        compliance_[at(entry(j / 2, static_cast<int>(j % 2)) * size +
-                       entry(i / 2, static_cast<int>(i % 2)))] += answer(i, j);
+    w.noalias() += shapes * reply;
   }
+  for (Index i = 0; i < n; ++i)
+    for (Index j = 0; j < n; ++j) {
+      const std::size_t p = pair(near_[at(i)].node, near_[at(j)].node);
+      Block g = beyond_[p];
+      for (Index e = 0; e < 4; ++e)
+        g[at(e)] = g[at(e)] / (1.0 + lag) + w(2 * i + e / 2, 2 * j + e % 2);
+      compliance_[p] = contact::complex_block(g);
+    }
 }
 
 /// Finds what the forces of the step before would do to the modes if they stayed in space. Without
@@ -196,30 +218,18 @@ void RingWheel::leave_forces(const WheelMotion& m) {
   }
 }
 
-Eigen::Map<const Eigen::MatrixXd> RingWheel::compliance(int lag) const {
+Eigen::MatrixXd RingWheel::compliance(int lag) const {
   RONDO_DEMAND(!near_compliance_);
-  const int d = (lag % ring_.n_sectors() + ring_.n_sectors()) % ring_.n_sectors();
-  const Index size = ring_.n_contact();
-  return {compliance_.data() + d * size * size, size, size};
-}
-
-/// 2 × 2 block of G between two nodes, of a spin.
-RingWheel::Block RingWheel::beyond_modes(const Shares& shares, int to, int from) const noexcept {
-  if (model_.residuals.size() == 1) return answer(model_.residuals[0].blocks.data(), to, from);
-  Block sum{};
-  for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
-    const Block g = answer(model_.residuals[a].blocks.data(), to, from);
-    for (std::size_t e = 0; e < sum.size(); ++e) sum[e] += shares[a] * g[e];
-  }
-  return sum;
-}
-
-/// 2 × 2 block of a table between two nodes.
-RingWheel::Block RingWheel::answer(const double* table, int to, int from) const noexcept {
-  const int lag = sector(to) - sector(from);
-  const Index size = ring_.n_contact(), d = lag < 0 ? lag + ring_.n_sectors() : lag;
-  const double* block = table + d * size * size + 2 * local(from) * size + 2 * local(to);
-  return {block[0], block[size], block[1], block[size + 1]};
+  const int n = ring_.n_sectors(), d = (lag % n + n) % n;
+  Eigen::MatrixXd w(ring_.n_contact(), ring_.n_contact());
+  for (int from = 0; from < n_contact_; ++from)
+    for (int to = 0; to < n_contact_; ++to) {
+      contact::ComplexBlock block = compliance_[pair(d * n_contact_ + to, from)];
+      block.same = conj(ring_.stiffness.turn[at(d)]) * block.same;
+      const Block b = contact::block_of(block);
+      w.block<2, 2>(Index{2} * to, Index{2} * from) << b[0], b[1], b[2], b[3];
+    }
+  return w;
 }
 
 /// The modes at the end of the step without new forces.
@@ -240,11 +250,11 @@ void RingWheel::move_modes(const WheelMotion& m) {
       s.outside -= 0.5 * back * of.translation.conjugate();
     if (m.kept_spin) s.outside.noalias() -= m.spin_rate * (of.coriolis * s.state.head(r));
     s.before = s.state;
-    s.pushed = s.outside;
     if (is_whole())
-      s.pushed += 0.5 * s.force - (settings_.theta - 0.5) * s.left;
+      s.held = 0.5 * s.force - (settings_.theta - 0.5) * s.left;
     else
-      s.pushed += (1.0 - settings_.theta) * s.force;
+      s.held = (1.0 - settings_.theta) * s.force;
+    s.pushed = s.outside + s.held;
     const auto y = s.before.head(r), p = s.before.tail(r);
     s.pushed *= 0.5 * settings_.dt;
     s.pushed += p - s.lever * s.stiff.cwiseProduct(y);

@@ -116,7 +116,7 @@ class RingWheel {
   void velocity(double angle, std::span<Vec2> v) const;
   /// W[lag]: displacement at the end of a step of contact node i by a force on j, i - j = lag.
   /// @pre of a ring of one sector: the spin stays
-  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> compliance(int lag) const;
+  [[nodiscard]] Eigen::MatrixXd compliance(int lag) const;
 
   /// The numbers from which another wheel of this ring, and these settings, resumes bit for bit.
   [[nodiscard]] static std::size_t n_numbers(const Ring& ring, const WheelModel& model) noexcept;
@@ -136,11 +136,13 @@ class RingWheel {
   struct Modes {
     explicit Modes(const RingHarmonic& of);
 
-    Vector state, before;    ///< (2r) at the end of the last step, and of the one before
-    Vector force, outside;   ///< (r) of the contact, φ_cᴴ λ; of the frame
-    Vector left;             ///< (r) of the forces that stay in space; ring of one sector
-    Vector contact, middle;  ///< (2C) φ_c y without new forces, φ_c p in the middle of the step
-    Vector pushed, work;     ///< (r), (2r)
+    Vector state, before;   ///< (2r) at the end of the last step, and of the one before
+    Vector force, outside;  ///< (r) of the contact, φ_cᴴ λ; of the frame
+    Vector left;            ///< (r) of the forces that stay in space; ring of one sector
+    Vector held;            ///< (r) of the contact at the start of the step, its share in it
+    Vector ground;          ///< (2C) sum of e^{-ikψ} λ over the sectors, over their number
+    Vector contact;         ///< (2C) φ_c y without new forces
+    Vector pushed, work;    ///< (r), (2r)
     // fill_step() sets these for a step.
     Complexes turn, lever;  ///< c = 1 + ½Δt iks; ½Δt/c                                         [s]
     double twisted = 0.0;   ///< ṡ                                                     [rad/s²]
@@ -163,6 +165,7 @@ class RingWheel {
     Vec2 place;    ///< and with them                                                     [m]
     Vec2 own, own_before;  ///< forces at both ends of the step, in the frame of the sector [N/m]
     bool candidate = false;
+    int column = -1;  ///< of reply_, the first of two; -1: it has none
     // On a rim that moves.
     Vec2 still;     ///< `free` without accelerations beyond those of WheelRim::begin       [m]
     Columns moved;  ///< change of `place` by unit accelerations of x, y and the angle
@@ -209,6 +212,7 @@ class RingWheel {
                                                   std::span<const Vec2> u);
   [[nodiscard]] Eigen::VectorXd forces_that_hold(std::span<const std::size_t> nodes) const;
   void push_modes(const Near& near, Vec2 own);
+  void end_push();
   void project(double angle, std::span<const Vec2> field, bool velocity);
   void set_residual(double spin);
   void fill_compliance();
@@ -219,6 +223,7 @@ class RingWheel {
   void find_near(const WheelMotion& motion, double filter);
   [[nodiscard]] Vec2 displacement(int node, Complex turn, double filter) const;
   [[nodiscard]] Vec2 distance(const Near& near, const WheelMotion& motion) const;
+  void find_reply(Near& from);
   void add_candidates(const WheelMotion& motion);
   void fill_law(const WheelMotion& motion);
   void solve(const WheelMotion& motion, double friction, WheelReport& report);
@@ -228,9 +233,8 @@ class RingWheel {
   void take_forces(const WheelMotion& m, WheelReport& report);
   void account(const WheelMotion& motion, WheelReport& report);
   void account_modes(const WheelMotion& motion, WheelEnergy& energy) const;
-  [[nodiscard]] double work_on_modes(Complex turn, int node, Vec2 own) const;
-  [[nodiscard]] double work_on_modes(const WheelMotion& motion) const;
-  [[nodiscard]] Products products(const Shares& shares) const;
+  [[nodiscard]] double work_on_modes() const;
+  [[nodiscard]] Products products() const;
   void remember(const WheelMotion& motion);
   template <class Filtered>
   [[nodiscard]] Eigen::VectorXd by_contact(Filtered&& filtered) const;
@@ -256,8 +260,15 @@ class RingWheel {
   [[nodiscard]] const Memory& memory_of(int node) const noexcept {
     return memory_[static_cast<std::size_t>(node)];
   }
-  [[nodiscard]] Block beyond_modes(const Shares& shares, int to, int from) const noexcept;
-  [[nodiscard]] Block answer(const double* table, int to, int from) const noexcept;
+  [[nodiscard]] int lag(int to, int from) const noexcept {
+    const int d = sector(to) - sector(from);
+    return d < 0 ? d + ring_.n_sectors() : d;
+  }
+  /// Place of a pair of nodes in beyond_ and compliance_.
+  [[nodiscard]] std::size_t pair(int to, int from) const noexcept {
+    return static_cast<std::size_t>((lag(to, from) * n_contact_ + local(from)) * n_contact_ +
+                                    local(to));
+  }
 
   const Ring& ring_;
   const std::vector<RingHarmonic>& harmonics_;
@@ -266,10 +277,13 @@ class RingWheel {
   const WheelSettings settings_;
   const int n_contact_;  ///< C
   const bool flat_;
-  Shares shares_{1.0}, shares_before_{1.0};  ///< of the spins at both ends of the step
-  Eigen::VectorXd centrifugal_;              ///< (rows) of the spin at its end          [m]
-  std::vector<double> compliance_;           ///< (N, 2C, 2C) W[lag]                       [m²/N]
-  double spin_ = 0.0, spin_rate_ = 0.0;      ///< of the matrices, at the end of the last step
+  Shares shares_{1.0};            ///< of the spin at the end of the step
+  double residual_before_ = 0.0;  ///< energy at its start by the spin of the step before   [J/m]
+  Eigen::VectorXd centrifugal_;   ///< (rows) of the spin at its end          [m]
+  std::vector<Block> beyond_;  ///< (N, C, C) G[lag] of the spin, frames of the sectors    [m²/N]
+  /// (N, C, C) W[lag], turned by the lag: `same` is that of the fixed frame             [m²/N]
+  std::vector<contact::ComplexBlock> compliance_;
+  double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
   bool has_matrices_ = false, new_table_ = false, has_shift_ = false;
   bool near_compliance_ = false;    ///< W is that of the near nodes of each step alone
   std::optional<LeftBehind> left_;  ///< of a ring of one sector
@@ -277,8 +291,15 @@ class RingWheel {
   std::vector<Modes> modes_;
   std::vector<Memory> memory_;       ///< (N C)
   std::vector<int> sector_, local_;  ///< (N C) of each contact node, so that none is divided for
+  std::vector<Vec2> reference_;      ///< (N C) X of each contact node, co-rotating frame    [m]
   std::vector<int> active_;          ///< nodes with a filtered force, ascending
+  std::vector<int> seen_;            ///< nodes of the last step's near_, ascending
   std::vector<Near> near_;
+  /// (2 near, n_columns_) places of the near nodes by forces along x and y on those that have
+  /// columns, fixed frame, columns one after the other [m²/N]
+  std::vector<double> reply_;
+  std::vector<double> moved_;  ///< (2 near) by the forces of the law                        [m]
+  int n_columns_ = 0;
   std::vector<std::size_t> solved_;    ///< places of the candidates in near_
   std::vector<contact::Touch> touch_;  ///< of these, at `place`
   std::vector<GapContact> law_;

@@ -15,7 +15,7 @@ using contact::Status;
 using Eigen::Index;
 
 constexpr double near_share = 0.05;        ///< of the radius, above the ground: looked at
-constexpr double candidate_share = 0.013;  ///< contact is solved
+constexpr double candidate_share = 0.004;  ///< contact is solved
 constexpr double closed = -1e-14;          ///< gaps above it are closed to round-off       [m]
 constexpr double nothing = 1e-9;           ///< filtered forces below it are 0            [N/m]
 constexpr int most_turns = 3;              ///< of the normals, on ground that is not flat
@@ -28,13 +28,6 @@ double landing(double g, double b, double a) noexcept {
   return std::min(1.0, 2.0 * g / (-b + std::sqrt(inside)));
 }
 
-/// What a force does to a place through the rim.
-Vec2 by_rim(const std::array<Vec2, 3>& moved, const std::array<Vec2, 3>& reply,
-            Vec2 force) noexcept {
-  return dot(reply[0], force) * moved[0] + dot(reply[1], force) * moved[1] +
-         dot(reply[2], force) * moved[2];
-}
-
 }  // namespace
 
 /// Displacement of a contact node, in the frame of its sector. @param turn of the modes
@@ -43,35 +36,39 @@ Vec2 by_rim(const std::array<Vec2, 3>& moved, const std::array<Vec2, 3>& reply,
 Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
   const Index c = Index{2} * local(node);
   const Index row = Index{2} * ring_.contact[at(local(node))];
-  Vec2 u{centrifugal_[row], centrifugal_[row + 1]};
+  // Not a Vec2: compilers keep that in memory in these loops, and wait for it.
+  double x = centrifugal_[row], y = centrifugal_[row + 1];
   for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
     const std::complex<double>* amplitude = modes_[h].contact.data() + c;
     const double weight = harmonics_[h].weight();
-    u += weight * Vec2{real_product(wave, amplitude[0]), real_product(wave, amplitude[1])};
+    x += weight * real_product(wave, amplitude[0]);
+    y += weight * real_product(wave, amplitude[1]);
   });
-  for (const int j : active_)
-    u += contact::apply(beyond_modes(shares_, node, j), filter * memory_of(j).filtered);
-  return u;
+  for (const int j : active_) {
+    const Block& g = beyond_[pair(node, j)];
+    const Vec2 force = filter * memory_of(j).filtered;
+    x += g[0] * force.x + g[1] * force.y;
+    y += g[2] * force.x + g[3] * force.y;
+  }
+  return {x, y};
 }
 
 /// Nodes that are or may come near the ground, and their places without new forces.
 void RingWheel::find_near(const WheelMotion& m, double filter) {
   near_.clear();
+  n_columns_ = 0;
   const double limit = ground_.top() + near_share * model_.radius - m.center_next.y;
   const Complex frame = rotation(m.angle_next), waves = rotation(waves_at(m));
-  for (int j = 0; j < ring_.n_sectors(); ++j) {
-    const Complex turn = frame * ring_.stiffness.turn[at(j)];
-    for (int c = 0; c < n_contact_; ++c) {
-      const int node = j * n_contact_ + c;
-      if ((turn * arm(node)).y > limit && memory_of(node).status == Status::open) continue;
-      Near near;
-      near.node = node;
-      near.turn = turn;
-      near.own_before = memory_of(node).force;
-      near.wave = waves * ring_.stiffness.turn[at(j)];
-      near.free = near.place = turn * (arm(node) + displacement(node, near.wave, filter));
-      near_.push_back(near);
-    }
+  for (int node = 0, n = static_cast<int>(memory_.size()); node < n; ++node) {
+    const Vec2 x = reference_[at(node)];
+    if (frame.im * x.x + frame.re * x.y > limit && memory_of(node).status == Status::open) continue;
+    const Complex turn = ring_.stiffness.turn[at(sector(node))];
+    Near& near = near_.emplace_back();
+    near.node = node;
+    near.turn = frame * turn;
+    near.wave = waves * turn;
+    near.own_before = memory_of(node).force;
+    near.free = near.place = near.turn * (arm(node) + displacement(node, near.wave, filter));
   }
 }
 
@@ -94,6 +91,29 @@ Vec2 RingWheel::distance(const Near& near, const WheelMotion& m) const {
   return (1.0 - tau) * way + near.free - x - before;
 }
 
+/// Finds what forces on a near node do to the places of all of them.
+void RingWheel::find_reply(Near& from) {
+  if (from.column >= 0) return;
+  from.column = n_columns_;
+  n_columns_ += 2;
+  const std::size_t rows = 2 * near_.size();
+  double* by_x = reply_.data() + rows * at(from.column);
+  double* by_y = by_x + rows;
+  for (const Near& near : near_) {
+    const contact::ComplexBlock& answer = compliance_[pair(near.node, from.node)];
+    Block w = contact::block_of({answer.same, near.turn * from.turn * answer.mirrored});
+    if (on_moving_rim_)
+      for (std::size_t k = 0; k < near.moved.size(); ++k) {
+        const Vec2 a = near.moved[k], b = from.reply[k];
+        w = contact::sum(w, {a.x * b.x, a.x * b.y, a.y * b.x, a.y * b.y});
+      }
+    *by_x++ = w[0];
+    *by_x++ = w[2];
+    *by_y++ = w[1];
+    *by_y++ = w[3];
+  }
+}
+
 /// Nodes that are low enough, or were pressed.
 void RingWheel::add_candidates(const WheelMotion& m) {
   solved_.clear();
@@ -104,6 +124,7 @@ void RingWheel::add_candidates(const WheelMotion& m) {
     near.candidate |=
         touch.gap < candidate_share * model_.radius || memory_of(near.node).status != Status::open;
     if (!near.candidate) continue;
+    find_reply(near);
     solved_.push_back(i);
     touch_.push_back(touch);
   }
@@ -113,55 +134,49 @@ void RingWheel::add_candidates(const WheelMotion& m) {
 void RingWheel::fill_law(const WheelMotion& m) {
   const std::size_t n = solved_.size();
   law_.resize(n);
-  auto w = gap_law_.compliance(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Near& near = near_[solved_[i]];
     const Memory& was = memory_of(near.node);
-    const Vec2 normal = touch_[i].normal, tangent = tangent_of(normal);
+    const Vec2 normal = touch_[i].normal;
     GapContact& c = law_[i];
     c = {};
     c.free_gap = touch_[i].gap + dot(normal, near.free - near.place);
-    c.free_slip = dot(tangent, distance(near, m));
+    c.free_slip = dot(tangent_of(normal), distance(near, m));
     c.status = was.status;
     c.side = was.side;
-    const Vec2 to_normal = conj(near.turn) * normal, to_tangent = conj(near.turn) * tangent;
-    const auto row = static_cast<Index>(2 * i);
-    for (std::size_t j = 0; j < n; ++j) {
-      const Near& other = near_[solved_[j]];
-      const Block g = answer(compliance_.data(), near.node, other.node);
-      const Vec2 pushed = contact::apply(g, conj(other.turn) * touch_[j].normal),
-                 pulled = contact::apply(g, conj(other.turn) * tangent_of(touch_[j].normal));
-      const auto column = static_cast<Index>(2 * j);
-      w(row, column) = dot(to_normal, pushed);
-      w(row + 1, column) = dot(to_tangent, pushed);
-      w(row, column + 1) = dot(to_normal, pulled);
-      w(row + 1, column + 1) = dot(to_tangent, pulled);
-      if (!on_moving_rim_) continue;
-      const Vec2 by_normal = by_rim(near.moved, other.reply, touch_[j].normal),
-                 by_tangent = by_rim(near.moved, other.reply, tangent_of(touch_[j].normal));
-      w(row, column) += dot(normal, by_normal);
-      w(row + 1, column) += dot(tangent, by_normal);
-      w(row, column + 1) += dot(normal, by_tangent);
-      w(row + 1, column + 1) += dot(tangent, by_tangent);
+  }
+  double* w = gap_law_.compliance(n).data();
+  for (std::size_t j = 0; j < n; ++j, w += 4 * n) {
+    const double* by_x = reply_.data() + 2 * near_.size() * at(near_[solved_[j]].column);
+    const double* by_y = by_x + 2 * near_.size();
+    const Vec2 along = touch_[j].normal, across = tangent_of(along);
+    for (std::size_t i = 0; i < n; ++i) {
+      const std::size_t row = 2 * solved_[i];
+      const Block g{by_x[row], by_y[row], by_x[row + 1], by_y[row + 1]};
+      const Vec2 normal = touch_[i].normal, tangent = tangent_of(normal);
+      const Vec2 pushed = contact::apply(g, along), pulled = contact::apply(g, across);
+      w[2 * i] = dot(normal, pushed);
+      w[2 * i + 1] = dot(tangent, pushed);
+      w[2 * n + 2 * i] = dot(normal, pulled);
+      w[2 * n + 2 * i + 1] = dot(tangent, pulled);
     }
   }
 }
 
 /// Places of all near nodes under the forces.
 void RingWheel::place_all() {
-  for (Near& near : near_) near.place = near.free;
+  const std::size_t rows = 2 * near_.size();
+  std::fill_n(moved_.begin(), rows, 0.0);
   for (std::size_t j = 0; j < solved_.size(); ++j) {
     if (law_[j].normal == 0.0 && law_[j].shear == 0.0) continue;
-    const Near& from = near_[solved_[j]];
     const Vec2 normal = touch_[j].normal;
     const Vec2 force = law_[j].normal * normal + law_[j].shear * tangent_of(normal);
-    const Vec2 own = conj(from.turn) * force;
-    for (Near& near : near_) {
-      near.place +=
-          near.turn * contact::apply(answer(compliance_.data(), near.node, from.node), own);
-      if (on_moving_rim_) near.place += by_rim(near.moved, from.reply, force);
-    }
+    const double* by_x = reply_.data() + rows * at(near_[solved_[j]].column);
+    const double* by_y = by_x + rows;
+    for (std::size_t i = 0; i < rows; ++i) moved_[i] += force.x * by_x[i] + force.y * by_y[i];
   }
+  for (std::size_t i = 0; i < near_.size(); ++i)
+    near_[i].place = near_[i].free + Vec2{moved_[2 * i], moved_[2 * i + 1]};
 }
 
 /// Nodes that were left out and are now in the ground become candidates. False: there are none.
@@ -192,6 +207,7 @@ void RingWheel::solve(const WheelMotion& m, double friction, WheelReport& report
     for (std::size_t i = 0; i < near_.size(); ++i) {
       const Vec2 force = near_[i].turn * memory_of(near_[i].node).force;
       if (force == Vec2{}) continue;
+      find_reply(near_[i]);
       solved_.push_back(i);
       touch_.push_back({0.0, force});
       law_.push_back({});
@@ -208,9 +224,12 @@ void RingWheel::solve(const WheelMotion& m, double friction, WheelReport& report
     report.iterations += solved.iterations;
     report.pivoted |= solved.pivoted;
     report.law_residual = solved.residual;
-    report.free = 0.0;
-    for (const GapContact& c : law_)
-      report.free = std::max(report.free, std::hypot(std::min(0.0, c.free_gap), c.free_slip));
+    double free = 0.0;
+    for (const GapContact& c : law_) {
+      const Vec2 moved{c.free_slip, std::min(0.0, c.free_gap)};
+      free = std::max(free, dot(moved, moved));
+    }
+    report.free = std::sqrt(free);
     place_all();
     if (join(m)) {
       turn = -1;  // as many nodes can join as there are
@@ -220,19 +239,23 @@ void RingWheel::solve(const WheelMotion& m, double friction, WheelReport& report
   }
 }
 
-/// Adds φ_cᴴ of a force in the frame of its sector to the forces on the modes.
+/// Adds a force in the frame of its sector to those on the modes; end_push() makes them theirs.
 void RingWheel::push_modes(const Near& near, Vec2 own) {
   const Index row = Index{2} * local(near.node);
   const Vec2 part = own / static_cast<double>(ring_.n_sectors());
   for_waves(harmonics_, near.wave, [&](std::size_t h, Complex wave) {
-    const Matrix& shape = harmonics_[h].contact;
-    for (Index j = 0; j < shape.cols(); ++j) {
-      const std::complex<double> x = shape(row, j) * part.x + shape(row + 1, j) * part.y;
-      // conj(e^{ikψ} x)
-      modes_[h].force[j] +=
-          Complexes(real_product(wave, x), -(wave.re * x.imag() + wave.im * x.real()));
-    }
+    const Complexes back(wave.re, -wave.im);
+    modes_[h].ground[row] += part.x * back;
+    modes_[h].ground[row + 1] += part.y * back;
   });
+}
+
+/// φ_cᴴ of what push_modes() added since the last time.
+void RingWheel::end_push() {
+  for (std::size_t h = 0; h < modes_.size(); ++h) {
+    modes_[h].force.noalias() = harmonics_[h].contact.adjoint() * modes_[h].ground;
+    modes_[h].ground.setZero();
+  }
 }
 
 /// Forces of the ground, and what they do to the modes and to the residual.
@@ -244,7 +267,6 @@ void RingWheel::take_forces(const WheelMotion& m, WheelReport& report) {
     memory.filtered = lag / (1.0 + lag) * memory.filtered;
   }
   contacts_.clear();
-  for (Modes& s : modes_) s.force.setZero();
   for (Near& near : near_) near.own = {};
   for (std::size_t i = 0; i < solved_.size(); ++i) {
     const GapContact& c = law_[i];
@@ -262,6 +284,7 @@ void RingWheel::take_forces(const WheelMotion& m, WheelReport& report) {
     memory.filtered += 1.0 / (1.0 + lag) * own;
     push_modes(near, own);
   }
+  end_push();
   for (Modes& s : modes_) {
     push_by(s, s.force, s.work);
     s.state += settings_.theta * s.work;
@@ -288,27 +311,26 @@ void RingWheel::remember(const WheelMotion& m) {
     if (gone) memory.filtered = memory.filtered_before = {};
     return gone;
   });
-  std::size_t i = 0, l = 0;
-  for (std::size_t node = 0; node < memory_.size(); ++node) {
-    Memory& memory = memory_[node];
+  for (const int node : seen_) {
+    Memory& memory = memory_of(node);
     memory.force = {};
     memory.side = 0.0;
     memory.status = Status::open;
-    if (i == near_.size() || at(near_[i].node) != node) {
-      memory.known = 0;
-      continue;
-    }
-    const Near& near = near_[i];
+    if (!std::ranges::binary_search(near_, node, {}, &Near::node)) memory.known = 0;
+  }
+  seen_.clear();
+  for (const Near& near : near_) {
+    Memory& memory = memory_of(near.node);
     memory.place = {near.place, memory.place[0], memory.place[1]};
     memory.gap = {ground_.facet_near(m.center_next + near.place).gap, memory.gap[0]};
     memory.known = std::min(3, memory.known + 1);
-    if (l < solved_.size() && solved_[l] == i) {
-      memory.status = law_[l].status;
-      memory.side = law_[l].side;
-      ++l;
-    }
     memory.force = near.own;
-    ++i;
+    seen_.push_back(near.node);
+  }
+  for (std::size_t l = 0; l < solved_.size(); ++l) {
+    Memory& memory = memory_of(near_[solved_[l]].node);
+    memory.status = law_[l].status;
+    memory.side = law_[l].side;
   }
 }
 

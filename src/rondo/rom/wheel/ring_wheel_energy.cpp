@@ -15,12 +15,12 @@ using Eigen::Index;
 }  // namespace
 
 /// Σ aᵀ G b of the filtered forces at both ends of the step.
-RingWheel::Products RingWheel::products(const Shares& shares) const {
+RingWheel::Products RingWheel::products() const {
   Products sum;
   for (const int i : active_)
     for (const int j : active_) {
       const Memory &to = memory_of(i), &from = memory_of(j);
-      const Block g = beyond_modes(shares, i, j);
+      const Block& g = beyond_[pair(i, j)];
       const Vec2 now = contact::apply(g, from.filtered),
                  before = contact::apply(g, from.filtered_before);
       sum.end += dot(to.filtered, now);
@@ -30,34 +30,19 @@ RingWheel::Products RingWheel::products(const Shares& shares) const {
   return sum;
 }
 
-/// Power of a force on a contact node, in the frame of its sector, on the mean velocity of the
-/// modes. @param turn e^{iψ} of the sector, where the modes are
-double RingWheel::work_on_modes(Complex turn, int node, Vec2 own) const {
-  if (own == Vec2{}) return 0.0;
-  const Index c = Index{2} * local(node);
+/// Work of the ground's forces on the modes in the step.
+double RingWheel::work_on_modes() const {
   double power = 0.0;
-  for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
-    const std::complex<double>* rate = modes_[h].middle.data() + c;
-    power += harmonics_[h].weight() *
-             (real_product(wave, rate[0]) * own.x + real_product(wave, rate[1]) * own.y);
-  });
-  return power;
-}
-
-/// Work of the ground's forces on the modes in the step, node by node.
-double RingWheel::work_on_modes(const WheelMotion& m) const {
-  const double theta = settings_.theta, old = is_whole() ? 0.5 : 1.0 - theta;
-  const Complex frame = rotation(m.angle), next = rotation(waves_at(m));
-  double power = 0.0;
-  for (const Near& near : near_) {
-    const Complex turn = ring_.stiffness.turn[at(sector(near.node))];
-    power += theta * work_on_modes(next * turn, near.node, near.own) +
-             old * work_on_modes(frame * turn, near.node, near.own_before);
+  for (std::size_t h = 0; h < modes_.size(); ++h) {
+    const Modes& s = modes_[h];
+    const Index r = s.stiff.size();
+    Complexes sum = 0.0;
+    for (Index j = 0; j < r; ++j)
+      sum +=
+          std::conj(s.before[r + j] + s.state[r + j]) * (s.held[j] + settings_.theta * s.force[j]);
+    power += 0.5 * harmonics_[h].weight() * sum.real();
   }
-  if (is_whole())
-    for (const LeftBehind::Share& share : left_->shares())
-      power -= (theta - 0.5) * work_on_modes(next, share.node, share.force);
-  return settings_.dt * power;
+  return settings_.dt * ring_.n_sectors() * power;
 }
 
 /// Energy of the modes and what is done to them, but for the forces of the ground.
@@ -93,18 +78,11 @@ void RingWheel::account_modes(const WheelMotion& m, WheelEnergy& e) const {
 void RingWheel::account(const WheelMotion& m, WheelReport& report) {
   const double dt = settings_.dt;
   WheelEnergy& e = report.energy;
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    Modes& s = modes_[h];
-    const Index r = harmonics_[h].squares.size();
-    s.work.head(r) = 0.5 * (s.before.tail(r) + s.state.tail(r));
-    s.middle.noalias() = harmonics_[h].contact * s.work.head(r);
-  }
   account_modes(m, e);
-  const Products of = products(shares_);
+  const Products of = products();
   e.residual = 0.5 * of.end;
-  const double by_table = new_table_ && (m.kept_spin || m.spin_rate != 0.0)
-                              ? 0.5 * (of.start - products(shares_before_).start)
-                              : 0.0;
+  const double by_table =
+      new_table_ && (m.kept_spin || m.spin_rate != 0.0) ? 0.5 * of.start - residual_before_ : 0.0;
   if (!m.kept_spin) e.frame += by_table;
   e.by_residual = settings_.stiffness_damping / dt * (of.end - 2.0 * of.across + of.start);
   const double slides = settings_.slip == SlipRule::bdf2 ? 1.5 : 1.0;
@@ -118,14 +96,14 @@ void RingWheel::account(const WheelMotion& m, WheelReport& report) {
   }
   e.rim = dot(report.force, m.center_next - m.center) + (m.angle_next - m.angle) * report.torque;
   e.scheme =
-      work_on_modes(m) + 0.5 * (of.end - of.start) + e.by_residual + e.friction + e.arrival + e.rim;
+      work_on_modes() + 0.5 * (of.end - of.start) + e.by_residual + e.friction + e.arrival + e.rim;
   if (m.kept_spin) e.scheme += by_table;
 }
 
 WheelEnergy RingWheel::energy_at_start(bool softened) const {
   WheelEnergy e;
   const double by_spin = softened ? spin_ * spin_ : 0.0;
-  e.residual = 0.5 * products(shares_).end;
+  e.residual = 0.5 * products().end;
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     const Eigen::VectorXd& squares = harmonics_[h].squares;
     const double n = 0.5 * harmonics_[h].weight() * ring_.n_sectors();

@@ -26,6 +26,7 @@ void RingWheel::begin(const WheelMotion& m) {
   use_spin(still);
   for (Memory& memory : memory_) memory = {};
   active_.clear();
+  seen_.clear();
   for (Modes& s : modes_) {
     s.state.setZero();
     s.force.setZero();
@@ -78,7 +79,7 @@ Eigen::VectorXd RingWheel::forces_that_hold(std::span<const std::size_t> nodes) 
     const auto row = static_cast<Index>(2 * i);
     moved.segment<2>(row) << by.x, by.y;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
-      const Block b = beyond_modes(shares_, near.node, near_[nodes[j]].node);
+      const Block& b = beyond_[pair(near.node, near_[nodes[j]].node)];
       g.block<2, 2>(row, static_cast<Index>(2 * j)) << b[0], b[1], b[2], b[3];
     }
   }
@@ -121,6 +122,7 @@ void RingWheel::press_at_start(const WheelMotion& m, std::span<const Vec2> u) {
     if (law_.back().status == contact::Status::slip && most > 0.0)
       law_.back().side = -std::copysign(1.0, shear);
   }
+  end_push();
 }
 
 RimVector RingWheel::force_at_start() const {

@@ -155,7 +155,9 @@ void RingWheel::accelerate_near(const RimVector& z, const Eigen::Matrix3d& answe
     near.free = near.place =
         near.still + z[0] * near.moved[0] + z[1] * near.moved[1] + z[2] * near.moved[2];
     near.candidate = false;
+    near.column = -1;
   }
+  n_columns_ = 0;
 }
 
 RimVector RingWheel::push_on_rim() const {

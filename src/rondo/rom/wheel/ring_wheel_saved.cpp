@@ -98,6 +98,7 @@ void RingWheel::restore(std::span<const double> numbers) {
   }
   move_contact();
   active_.clear();
+  seen_.clear();
   for (std::size_t node = 0; node < memory_.size(); ++node) {
     Memory& m = memory_[node];
     m = {};
@@ -109,6 +110,7 @@ void RingWheel::restore(std::span<const double> numbers) {
     m.status = static_cast<Status>(static_cast<int>(from.next()));
     m.side = from.next();
     if (m.filtered != Vec2{}) active_.push_back(static_cast<int>(node));
+    if (m.known > 0) seen_.push_back(static_cast<int>(node));
   }
 }
 
