@@ -1,38 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Coupled contact allocates nothing once its memory has held the largest problem: every allocation
-/// of this program is counted.
+/// Coupled contact allocates nothing once its memory has held the largest problem.
 #include <gtest/gtest.h>
-
-#include <cstdlib>
-#include <new>
 
 #include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/residual.hpp"
 #include "rondo/contact/search.hpp"
 #include "rondo/contact/segment.hpp"
+#include "support/allocations.hpp"
 #include "support/contact_problems.hpp"
-
-namespace {
-long allocations = 0;
-}
-
-// Not inlined: where the compiler inlines one of a pair only, it takes them for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace allocation_test {
 
 using namespace rondo;
 using namespace rondo::contact;
+using test::allocations;
 
 TEST(Allocation, NoneOnceTheMemoryIsLargeEnough) {
   // The first takes sweeps and one Newton step, the second all that the solver has.
@@ -60,9 +41,9 @@ TEST(Allocation, NoneOnceTheMemoryIsLargeEnough) {
     return converged;
   };
   EXPECT_TRUE(solve_all());
-  const long before = allocations;
+  const long before = allocations();
   EXPECT_TRUE(solve_all());
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(allocations() - before, 0);
 }
 
 TEST(Allocation, NoneInSearchAndClusters) {
@@ -87,9 +68,9 @@ TEST(Allocation, NoneInSearchAndClusters) {
     found += static_cast<long>(finder.find(starts, nodes, x.size()).size());
   };
   search();
-  const long before = allocations;
+  const long before = allocations();
   search();
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(allocations() - before, 0);
   EXPECT_GT(found, 100);
 }
 

@@ -1,53 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// The step allocates nothing: every allocation of this program is counted.
+/// The step allocates nothing.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "integrator_cases.hpp"
 #include "rondo/integrators/general/general_integrator.hpp"
+#include "support/allocations.hpp"
 #include "support/implicit.hpp"
 #include "support/rubber.hpp"
 #include "support/solid_wheel.hpp"
 #include "support/stepping.hpp"
 
-namespace {
-std::atomic<long> allocations{0};
-}
-
-// Not inlined: where the compiler inlines one of a pair only, it takes them for a mismatch.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++allocations;
-  const auto align = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(align, (size + align - 1) / align * align)) return memory;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-
 namespace allocation_test {
 
 using namespace rondo;
+using test::allocations;
 
 namespace {
 
@@ -61,14 +31,14 @@ TEST(Allocation, NoneInTheReferenceStep) {
   std::vector<dynamics::StepReport> reports(1000);
   integrator.advance(reports);  // as little as contacts need more memory than any before
   long in_contact = 0;
-  const long before = allocations;
+  const long before = allocations();
   integrator.advance(std::span(reports).first(100));
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(allocations() - before, 0);
   for (int n = 0; n < 100; ++n) in_contact += reports[static_cast<std::size_t>(n)].contact.nodes;
   EXPECT_GT(in_contact, 0);
-  const long counted = allocations;
+  const long counted = allocations();
   const std::vector<Vec2> something(10);
-  EXPECT_EQ(allocations - counted, 1);  // the counter counts
+  EXPECT_EQ(allocations() - counted, 1);  // the counter counts
 }
 
 /// From the very first call, with and without the last state.
@@ -80,13 +50,13 @@ TEST_P(Allocations, NoneInTheStepsOfAnIntegrator) {
   const auto integrator = dynamics::make_integrator(model, state);
   std::vector<dynamics::StepReport> reports(64);
   long in_contact = 0;
-  const long before = allocations;
+  const long before = allocations();
   for (int call = 0; call < 4; ++call) {
     integrator->advance(reports, call % 2 == 0 ? nullptr : &state);
     for (const dynamics::StepReport& report : reports) in_contact += report.contact.nodes;
   }
   integrator->fields(state);
-  EXPECT_EQ(allocations - before, 0);
+  EXPECT_EQ(allocations() - before, 0);
   EXPECT_GT(in_contact, 0);
 }
 
@@ -108,13 +78,13 @@ TEST_P(Allocations, NoneInTheStepsOfImplicitElements) {
     const auto integrator = dynamics::make_integrator(model, state);
     std::vector<dynamics::StepReport> reports(64);
     for (int call = 0; at_the_ground && call < 20; ++call) integrator->advance(reports);
-    const long before = allocations;
+    const long before = allocations();
     long in_contact = 0;
     for (int call = 0; call < 4; ++call) {
       integrator->advance(reports, call % 2 == 0 ? nullptr : &state);
       for (const dynamics::StepReport& report : reports) in_contact += report.contact.nodes;
     }
-    EXPECT_EQ(allocations - before, 0) << at_the_ground;
+    EXPECT_EQ(allocations() - before, 0) << at_the_ground;
     EXPECT_GT(in_contact, 0);
   }
 }
@@ -135,9 +105,9 @@ TEST(Allocation, NoneInTheFusedStepsOfRubber) {
     const auto integrator = dynamics::make_integrator(b.model, state);
     std::vector<dynamics::StepReport> reports(64);
     integrator->advance(reports);
-    const long before = allocations;
+    const long before = allocations();
     integrator->advance(reports, &state);
-    EXPECT_EQ(allocations - before, 0);
+    EXPECT_EQ(allocations() - before, 0);
     EXPECT_GT(reports.back().contact.nodes, 0);
   }
 }
@@ -154,13 +124,13 @@ TEST(Allocation, NoneInTheStepsOfAWheelInThreeDimensions) {
     const auto integrator = dynamics::make_integrator(model, state);
     std::vector<dynamics::StepReport> reports(64);
     long in_contact = 0;
-    const long before = allocations;
+    const long before = allocations();
     for (int call = 0; call < 4; ++call) {
       integrator->advance(reports, call % 2 == 0 ? nullptr : &state);
       for (const dynamics::StepReport& report : reports) in_contact += report.contact.nodes;
     }
     integrator->fields(state);
-    EXPECT_EQ(allocations - before, 0) << threads;
+    EXPECT_EQ(allocations() - before, 0) << threads;
     EXPECT_GT(in_contact, 0);
   }
 }

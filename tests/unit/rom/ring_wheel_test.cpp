@@ -70,7 +70,7 @@ TEST(RingHarmonics, TheResidualIsTheComplianceThatTheModesLeave) {
 TEST(RingWheel, TheComplianceOfAStepHasTheModesAnswer) {
   const auto expect = [](int modes, double rr, double rt, double tt) {
     const Rolling run{.modes = modes, .passes = 2.0 * pi / 180.0 / (100.0 / 3.0) / 4e-4};
-    const Wheel w(disk(), run);
+    Wheel w(disk(), run);
     const auto block = w.wheel.compliance(0);
     EXPECT_NEAR(1e8 * block(1, 1), rr, 6e-9) << modes;
     EXPECT_NEAR(1e8 * block(0, 0), tt, 6e-9) << modes;

@@ -23,8 +23,19 @@ RingWheel::Modes::Modes(const RingHarmonic& of) {
   for (Vector* v : {&ground, &contact, &shift_contact, &twist_contact, &by_rate, &by_place})
     v->setZero(c);
   stiff.setZero(r);
-  inverse.setZero(r, r);
+  for (Matrix* m : {&inverse, &step}) m->setZero(r, r);
   one.setIdentity(r, r);
+  reply.setZero(r, c);
+  answer.setZero(c, c);
+}
+
+RingWheel::Real::Real(const Eigen::MatrixXd& shapes) : contact(shapes.transpose()) {
+  const Index r = contact.rows(), c = contact.cols();
+  for (Eigen::MatrixXd* m : {&step, &inverse}) m->setZero(r, r);
+  one.setIdentity(r, r);
+  for (Eigen::VectorXd* v : {&place, &push}) v->setZero(r);
+  reply.setZero(r, c);
+  made.resize(at(c / 2));
 }
 
 RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::Ground& ground,
@@ -46,6 +57,8 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
   centrifugal_ = residuals.front().centrifugal;
   beyond_.resize(residuals.front().blocks.size() / 4);
   compliance_.resize(beyond_.size());
+  made_.resize(beyond_.size());
+  beyond_made_.resize(beyond_.size());
   const std::size_t n = ring.contact.size() * at(ring.n_sectors());
   memory_.resize(n);
   for (std::size_t node = 0; node < n; ++node) {
@@ -67,6 +80,8 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
   std::vector<Vec2> arms;
   for (int node = 0; node < n_contact_; ++node) arms.push_back(arm(node));
   left_.emplace(arms);
+  real_ = Real(harmonics_.empty() ? Eigen::MatrixXd(ring.n_contact(), 0)
+                                  : Eigen::MatrixXd(harmonics_[0].contact.real()));
 }
 
 /// The residual of a spin.
@@ -80,18 +95,22 @@ void RingWheel::set_residual(double spin) {
     shares_[a] = share;
     centrifugal_ += share * model_.residuals[a].centrifugal;
   }
+  ++version_;
+}
+
+/// G of a pair at the spin, made when it is asked for.
+void RingWheel::make_beyond(int to, int from) const {
+  const std::size_t p = pair(to, from);
   const Index size = ring_.n_contact();
-  Block* out = beyond_.data();
-  for (Index column = 0; column < size * ring_.n_sectors(); column += 2)
-    for (Index row = 0; row < size; row += 2, ++out) {
-      *out = {};
-      for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
-        const double* g = model_.residuals[a].blocks.data() + column * size + row;
-        const double share = shares_[a];
-        *out =
-            contact::sum(*out, {share * g[0], share * g[size], share * g[1], share * g[size + 1]});
-      }
-    }
+  const Index first = (lag(to, from) * size + Index{2} * local(from)) * size + Index{2} * local(to);
+  Block& sum = beyond_[p];
+  sum = {};
+  for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
+    const double* g = model_.residuals[a].blocks.data() + first;
+    const double share = shares_[a];
+    sum = contact::sum(sum, {share * g[0], share * g[size], share * g[1], share * g[size + 1]});
+  }
+  beyond_made_[p] = version_;
 }
 
 /// Finds the matrices of a harmonic. With h = ½Δt the middle of the step solves
@@ -107,6 +126,24 @@ void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Mode
   s.step.diagonal().array() += s.turn + half * damping + half * s.lever * s.stiff.array();
   s.factor.compute(s.step);
   s.inverse = s.factor.solve(s.one);
+  const double share = settings_.theta * settings_.dt * of.weight() / ring_.n_sectors();
+  s.reply.noalias() = s.inverse * of.contact.adjoint();
+  s.answer.noalias() = share * s.lever * of.contact * s.reply;
+}
+
+/// The same of a ring of one sector, where all is real.
+void RingWheel::fill_whole_step(const RingHarmonic& of, double spin, double rate, Modes& s) {
+  const double half = 0.5 * settings_.dt;
+  s.turn = 1.0;
+  s.lever = half;
+  s.stiff = (of.squares.array() - spin * spin).matrix();
+  s.twisted = rate;
+  const auto damping = settings_.mass_damping + settings_.stiffness_damping * of.squares.array();
+  real_.step = (2.0 * half * spin + half * rate * half) * of.coriolis.real();
+  real_.step.diagonal().array() += 1.0 + half * damping + half * half * s.stiff.array();
+  real_.factor.compute(real_.step);
+  real_.inverse = real_.factor.solve(real_.one);
+  s.inverse = real_.inverse.cast<Complexes>();
 }
 
 /// (2r) What a force on the modes does in a step.
@@ -135,10 +172,11 @@ void RingWheel::take_spin(const WheelMotion& m, double rate, double end) {
   const double spin = rate == 0.0 ? end : (m.angle_next - m.angle) / dt;
   set_residual(end);
   for (std::size_t h = 0; h < harmonics_.size(); ++h)
-    fill_step(harmonics_[h], spin, rate, modes_[h]);
+    if (is_whole())
+      fill_whole_step(harmonics_[h], spin, rate, modes_[h]);
+    else
+      fill_step(harmonics_[h], spin, rate, modes_[h]);
   has_shift_ = false;
-  near_compliance_ = is_whole() && rate != 0.0;
-  if (!near_compliance_) fill_compliance();
 }
 
 /// The angle at which the modes are at the end of the step.
@@ -146,58 +184,38 @@ double RingWheel::waves_at(const WheelMotion& m) const noexcept {
   return m.kept_spin ? m.angle + settings_.dt * *m.kept_spin : m.angle_next;
 }
 
-/// W[lag] = G[lag]/(1 + β/Δt) + the modes' answer.
-void RingWheel::fill_compliance() {
-  const double lag = settings_.stiffness_damping / settings_.dt;
-  const Index size = ring_.n_contact();
-  const int n = ring_.n_sectors();
-  std::vector<Matrix> of_modes;
-  for (std::size_t h = 0; h < harmonics_.size(); ++h)
-    of_modes.push_back(settings_.theta * settings_.dt * harmonics_[h].weight() / n *
-                       (modes_[h].lever * (harmonics_[h].contact * modes_[h].inverse *
-                                           harmonics_[h].contact.adjoint())));
-  Eigen::MatrixXd w(size, size);
-  const Block* g = beyond_.data();
-  contact::ComplexBlock* out = compliance_.data();
-  for (int d = 0; d < n; ++d) {
-    w.setZero();
-    for (std::size_t h = 0; h < harmonics_.size(); ++h) {
-      const Complex turn = ring_.stiffness.turn[at(harmonics_[h].k * d % n)];
-      w += turn.re * of_modes[h].real() - turn.im * of_modes[h].imag();
-    }
-    for (Index from = 0; from < size; from += 2)
-      for (Index to = 0; to < size; to += 2, ++g, ++out) {
-        *out = contact::complex_block(
-            {(*g)[0] / (1.0 + lag) + w(to, from), (*g)[1] / (1.0 + lag) + w(to, from + 1),
-             (*g)[2] / (1.0 + lag) + w(to + 1, from), (*g)[3] / (1.0 + lag) + w(to + 1, from + 1)});
-        out->same = ring_.stiffness.turn[at(d)] * out->same;
-      }
+/// W[lag] = G[lag]/(1 + β/Δt) + the modes' answer of a pair, made when it is asked for.
+void RingWheel::make_answer(int to, int from) {
+  const int d = lag(to, from), n = ring_.n_sectors();
+  Block by_modes = is_whole() ? whole_answer(to, from) : Block{};
+  for (std::size_t h = 0; h < modes_.size() && !is_whole(); ++h) {
+    const Modes& s = modes_[h];
+    const Complex turn = ring_.stiffness.turn[at(harmonics_[h].k * d % n)];
+    const std::complex<double>* x = &s.answer(Index{2} * local(to), Index{2} * local(from));
+    const Index below = s.answer.rows();
+    by_modes = contact::sum(by_modes, {real_product(turn, x[0]), real_product(turn, x[below]),
+                                       real_product(turn, x[1]), real_product(turn, x[below + 1])});
   }
+  const double share = 1.0 / (1.0 + settings_.stiffness_damping / settings_.dt);
+  const Block& g = beyond(to, from);
+  const std::size_t p = pair(to, from);
+  compliance_[p] = contact::complex_block(
+      contact::sum({share * g[0], share * g[1], share * g[2], share * g[3]}, by_modes));
+  compliance_[p].same = ring_.stiffness.turn[at(d)] * compliance_[p].same;
+  made_[p] = version_;
 }
 
-/// Fills W of a ring of one sector, for the pairs of near nodes alone.
-void RingWheel::fill_near_compliance() {
-  const double lag = settings_.stiffness_damping / settings_.dt;
-  const Index n = static_cast<Index>(near_.size());
-  Eigen::MatrixXd w = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  for (std::size_t h = 0; h < harmonics_.size(); ++h) {
-    const Index r = harmonics_[h].squares.size();
-    Eigen::MatrixXd shapes(2 * n, r);
-    for (Index i = 0; i < n; ++i)
-      shapes.middleRows<2>(2 * i) =
-          harmonics_[h].contact.middleRows<2>(Index{2} * near_[at(i)].node).real();
-    const Eigen::MatrixXd reply = settings_.theta * settings_.dt *
-                                  (modes_[h].lever * modes_[h].inverse).real() * shapes.transpose();
-    w.noalias() += shapes * reply;
+/// What the modes answer, of a ring of one sector.
+RingWheel::Block RingWheel::whole_answer(int to, int from) {
+  if (modes_.empty()) return {};
+  auto reply = real_.reply.middleCols<2>(Index{2} * from);
+  if (real_.made[at(from)] != version_) {
+    reply.noalias() = real_.inverse * real_.contact.middleCols<2>(Index{2} * from);
+    reply *= settings_.theta * settings_.dt * modes_[0].lever.real();
+    real_.made[at(from)] = version_;
   }
-  for (Index i = 0; i < n; ++i)
-    for (Index j = 0; j < n; ++j) {
-      const std::size_t p = pair(near_[at(i)].node, near_[at(j)].node);
-      Block g = beyond_[p];
-      for (Index e = 0; e < 4; ++e)
-        g[at(e)] = g[at(e)] / (1.0 + lag) + w(2 * i + e / 2, 2 * j + e % 2);
-      compliance_[p] = contact::complex_block(g);
-    }
+  const auto a = real_.contact.col(Index{2} * to), b = real_.contact.col(Index{2} * to + 1);
+  return {a.dot(reply.col(0)), a.dot(reply.col(1)), b.dot(reply.col(0)), b.dot(reply.col(1))};
 }
 
 /// Finds what the forces of the step before would do to the modes if they stayed in space. Without
@@ -207,24 +225,18 @@ void RingWheel::leave_forces(const WheelMotion& m) {
   for (const int node : active_)
     if (const Vec2 force = memory_of(node).force; force != Vec2{})
       left_->add(node, force, m.angle_next - m.angle);
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    Vector& left = modes_[h].left;
-    left.setZero();
-    for (const LeftBehind::Share& share : left_->shares()) {
-      const Index row = Index{2} * share.node;
-      left += share.force.x * harmonics_[h].contact.row(row).transpose() +
-              share.force.y * harmonics_[h].contact.row(row + 1).transpose();
-    }
-  }
+  if (modes_.empty()) return;
+  modes_[0].left.setZero();
+  for (const LeftBehind::Share& share : left_->shares())
+    modes_[0].left.real() += real_.on_modes(share.node, share.force);
 }
 
-Eigen::MatrixXd RingWheel::compliance(int lag) const {
-  RONDO_DEMAND(!near_compliance_);
+Eigen::MatrixXd RingWheel::compliance(int lag) {
   const int n = ring_.n_sectors(), d = (lag % n + n) % n;
   Eigen::MatrixXd w(ring_.n_contact(), ring_.n_contact());
   for (int from = 0; from < n_contact_; ++from)
     for (int to = 0; to < n_contact_; ++to) {
-      contact::ComplexBlock block = compliance_[pair(d * n_contact_ + to, from)];
+      contact::ComplexBlock block = answer(d * n_contact_ + to, from);
       block.same = conj(ring_.stiffness.turn[at(d)]) * block.same;
       const Block b = contact::block_of(block);
       w.block<2, 2>(Index{2} * to, Index{2} * from) << b[0], b[1], b[2], b[3];
@@ -262,8 +274,8 @@ void RingWheel::move_modes(const WheelMotion& m) {
     s.state.tail(r).noalias() = s.inverse * s.pushed;  // the middle
     s.state.head(r) = 2.0 * (y / s.turn + s.lever * s.state.tail(r)) - y;
     s.state.tail(r) = 2.0 * s.state.tail(r) - p;
-    s.contact.noalias() = of.contact * s.state.head(r);
   }
+  move_contact();
 }
 
 WheelReport RingWheel::step(const WheelMotion& m) {
@@ -272,7 +284,6 @@ WheelReport RingWheel::step(const WheelMotion& m) {
   use_spin(m);
   move_modes(m);
   find_near(m, lag / (1.0 + lag));
-  if (near_compliance_) fill_near_compliance();
   solve(m, settings_.friction, report);
   take_forces(m, report);
   account(m, report);

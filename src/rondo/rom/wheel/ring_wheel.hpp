@@ -96,7 +96,7 @@ class RingWheel {
   void start(const WheelMotion& motion, std::span<const Vec2> u, std::span<const Vec2> v);
   /// Force of the ground at the start, and its torque about the center [N/m], [N]
   [[nodiscard]] RimVector force_at_start() const;
-  /// Allocates nothing unless the spin changes or the law of contact needs pivoting.
+  /// Allocates nothing unless the law of contact needs pivoting.
   [[nodiscard]] WheelReport step(const WheelMotion& motion);
   /// Makes a step on a rim that moves by itself, and adds its works, with that of the scheme. It
   /// allocates where the spin has left that of the matrices.
@@ -115,8 +115,7 @@ class RingWheel {
   /// And the mean velocity in it. @param angle θ in its middle
   void velocity(double angle, std::span<Vec2> v) const;
   /// W[lag]: displacement at the end of a step of contact node i by a force on j, i - j = lag.
-  /// @pre of a ring of one sector: the spin stays
-  [[nodiscard]] Eigen::MatrixXd compliance(int lag) const;
+  [[nodiscard]] Eigen::MatrixXd compliance(int lag);
 
   /// The numbers from which another wheel of this ring, and these settings, resumes bit for bit.
   [[nodiscard]] static std::size_t n_numbers(const Ring& ring, const WheelModel& model) noexcept;
@@ -150,10 +149,29 @@ class RingWheel {
     Matrix inverse;  ///< (r, r) of c + ½Δt (α + βω² + 2sJ) + ½Δt lever (ω² - s² + ṡJ)
     Matrix step, one;                    ///< (r, r) what is inverted; the identity
     Eigen::PartialPivLU<Matrix> factor;  ///< of it
+    Matrix reply, answer;  ///< (r, 2C) inverse φ_cᴴ; (2C, 2C) share of the modes in W
     // On a rim that moves: what unit accelerations along x and of the angle do.
     Vector shift, twist;                  ///< (2r) at the end of the step
     Vector shift_contact, twist_contact;  ///< (2C) φ_c y of these
     Vector by_rate, by_place;             ///< (2C) momenta by new forces, through p and through y
+  };
+  /// The modes of a ring of one sector, where all is real.
+  struct Real {
+    Real() = default;
+    /// @param shapes (2C, r) φ_c
+    explicit Real(const Eigen::MatrixXd& shapes);
+    /// (r) φ_cᵀ of a force on a contact node
+    [[nodiscard]] auto on_modes(int node, Vec2 force) const {
+      const Eigen::Index c = Eigen::Index{2} * node;
+      return force.x * contact.col(c) + force.y * contact.col(c + 1);
+    }
+
+    Eigen::MatrixXd contact;             ///< (r, 2C) φ_cᵀ
+    Eigen::VectorXd place, push;         ///< (r) y; φ_cᵀ λ of the forces so far
+    Eigen::MatrixXd step, inverse, one;  ///< (r, r) as in Modes
+    Eigen::PartialPivLU<Eigen::MatrixXd> factor;
+    Eigen::MatrixXd reply;  ///< (r, 2C) y by forces on the contact nodes
+    std::vector<int> made;  ///< (C) the version of these columns
   };
   using Columns = std::array<Vec2, 3>;
   /// A contact node near the ground.
@@ -194,6 +212,7 @@ class RingWheel {
   void use_spin(const WheelMotion& motion);
   void take_spin(const WheelMotion& motion, double rate, double end);
   void fill_step(const RingHarmonic& of, double spin, double rate, Modes& modes) const;
+  void fill_whole_step(const RingHarmonic& of, double spin, double rate, Modes& modes);
   void push_by(const Modes& modes, const Vector& force, Vector& out) const;
   void shift_modes();
   void twist_modes();
@@ -215,8 +234,9 @@ class RingWheel {
   void end_push();
   void project(double angle, std::span<const Vec2> field, bool velocity);
   void set_residual(double spin);
-  void fill_compliance();
-  void fill_near_compliance();
+  void make_beyond(int to, int from) const;
+  void make_answer(int to, int from);
+  [[nodiscard]] Block whole_answer(int to, int from);
   void leave_forces(const WheelMotion& motion);
   void move_modes(const WheelMotion& motion);
   [[nodiscard]] double waves_at(const WheelMotion& motion) const noexcept;
@@ -247,6 +267,10 @@ class RingWheel {
     return {x.re, x.im};
   }
   [[nodiscard]] bool is_whole() const noexcept { return ring_.n_sectors() == 1; }
+  /// None of a ring of one sector, whose modes are in real_.
+  [[nodiscard]] std::span<const RingHarmonic> waves_of_sectors() const noexcept {
+    return is_whole() ? std::span<const RingHarmonic>{} : harmonics_;
+  }
   [[nodiscard]] int sector(int node) const noexcept {
     return sector_[static_cast<std::size_t>(node)];
   }
@@ -269,6 +293,16 @@ class RingWheel {
     return static_cast<std::size_t>((lag(to, from) * n_contact_ + local(from)) * n_contact_ +
                                     local(to));
   }
+  [[nodiscard]] const Block& beyond(int to, int from) const {
+    const std::size_t p = pair(to, from);
+    if (beyond_made_[p] != version_) make_beyond(to, from);
+    return beyond_[p];
+  }
+  [[nodiscard]] const contact::ComplexBlock& answer(int to, int from) {
+    const std::size_t p = pair(to, from);
+    if (made_[p] != version_) make_answer(to, from);
+    return compliance_[p];
+  }
 
   const Ring& ring_;
   const std::vector<RingHarmonic>& harmonics_;
@@ -280,12 +314,16 @@ class RingWheel {
   Shares shares_{1.0};            ///< of the spin at the end of the step
   double residual_before_ = 0.0;  ///< energy at its start by the spin of the step before   [J/m]
   Eigen::VectorXd centrifugal_;   ///< (rows) of the spin at its end          [m]
-  std::vector<Block> beyond_;  ///< (N, C, C) G[lag] of the spin, frames of the sectors    [m²/N]
+  // Entries of the tables are made when they are asked for; they are good where `made` is version_.
+  int version_ = 0;                    ///< of the spin, counted
+  mutable std::vector<Block> beyond_;  ///< (N, C, C) G[lag], frames of the sectors          [m²/N]
+  mutable std::vector<int> beyond_made_;
   /// (N, C, C) W[lag], turned by the lag: `same` is that of the fixed frame             [m²/N]
   std::vector<contact::ComplexBlock> compliance_;
+  std::vector<int> made_;
+  Real real_;
   double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
   bool has_matrices_ = false, new_table_ = false, has_shift_ = false;
-  bool near_compliance_ = false;    ///< W is that of the near nodes of each step alone
   std::optional<LeftBehind> left_;  ///< of a ring of one sector
   bool on_moving_rim_ = false;      ///< in the law
   std::vector<Modes> modes_;

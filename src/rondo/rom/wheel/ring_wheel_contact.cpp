@@ -38,14 +38,18 @@ Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
   const Index row = Index{2} * ring_.contact[at(local(node))];
   // Not a Vec2: compilers keep that in memory in these loops, and wait for it.
   double x = centrifugal_[row], y = centrifugal_[row + 1];
-  for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
+  if (is_whole()) {
+    x += real_.contact.col(c).dot(real_.place);
+    y += real_.contact.col(c + 1).dot(real_.place);
+  }
+  for_waves(waves_of_sectors(), turn, [&](std::size_t h, Complex wave) {
     const std::complex<double>* amplitude = modes_[h].contact.data() + c;
     const double weight = harmonics_[h].weight();
     x += weight * real_product(wave, amplitude[0]);
     y += weight * real_product(wave, amplitude[1]);
   });
   for (const int j : active_) {
-    const Block& g = beyond_[pair(node, j)];
+    const Block& g = beyond(node, j);
     const Vec2 force = filter * memory_of(j).filtered;
     x += g[0] * force.x + g[1] * force.y;
     y += g[2] * force.x + g[3] * force.y;
@@ -100,8 +104,8 @@ void RingWheel::find_reply(Near& from) {
   double* by_x = reply_.data() + rows * at(from.column);
   double* by_y = by_x + rows;
   for (const Near& near : near_) {
-    const contact::ComplexBlock& answer = compliance_[pair(near.node, from.node)];
-    Block w = contact::block_of({answer.same, near.turn * from.turn * answer.mirrored});
+    const contact::ComplexBlock& of = answer(near.node, from.node);
+    Block w = contact::block_of({of.same, near.turn * from.turn * of.mirrored});
     if (on_moving_rim_)
       for (std::size_t k = 0; k < near.moved.size(); ++k) {
         const Vec2 a = near.moved[k], b = from.reply[k];
@@ -243,7 +247,8 @@ void RingWheel::solve(const WheelMotion& m, double friction, WheelReport& report
 void RingWheel::push_modes(const Near& near, Vec2 own) {
   const Index row = Index{2} * local(near.node);
   const Vec2 part = own / static_cast<double>(ring_.n_sectors());
-  for_waves(harmonics_, near.wave, [&](std::size_t h, Complex wave) {
+  if (is_whole()) real_.push += real_.on_modes(near.node, own);
+  for_waves(waves_of_sectors(), near.wave, [&](std::size_t h, Complex wave) {
     const Complexes back(wave.re, -wave.im);
     modes_[h].ground[row] += part.x * back;
     modes_[h].ground[row + 1] += part.y * back;
@@ -253,9 +258,14 @@ void RingWheel::push_modes(const Near& near, Vec2 own) {
 /// φ_cᴴ of what push_modes() added since the last time.
 void RingWheel::end_push() {
   for (std::size_t h = 0; h < modes_.size(); ++h) {
-    modes_[h].force.noalias() = harmonics_[h].contact.adjoint() * modes_[h].ground;
-    modes_[h].ground.setZero();
+    Modes& s = modes_[h];
+    if (is_whole())
+      s.force = real_.push.cast<Complexes>();
+    else
+      s.force.noalias() = harmonics_[h].contact.adjoint() * s.ground;
+    s.ground.setZero();
   }
+  if (is_whole()) real_.push.setZero();
 }
 
 /// Forces of the ground, and what they do to the modes and to the residual.

@@ -20,7 +20,7 @@ RingWheel::Products RingWheel::products() const {
   for (const int i : active_)
     for (const int j : active_) {
       const Memory &to = memory_of(i), &from = memory_of(j);
-      const Block& g = beyond_[pair(i, j)];
+      const Block& g = beyond(i, j);
       const Vec2 now = contact::apply(g, from.filtered),
                  before = contact::apply(g, from.filtered_before);
       sum.end += dot(to.filtered, now);

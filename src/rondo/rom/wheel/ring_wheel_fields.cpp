@@ -36,8 +36,11 @@ void RingWheel::begin(const WheelMotion& m) {
 /// What the modes do to the contact nodes.
 void RingWheel::move_contact() {
   for (std::size_t h = 0; h < modes_.size(); ++h)
-    modes_[h].contact.noalias() =
-        harmonics_[h].contact * modes_[h].state.head(harmonics_[h].squares.size());
+    if (is_whole())
+      real_.place = modes_[h].state.head(real_.place.size()).real();
+    else
+      modes_[h].contact.noalias() =
+          harmonics_[h].contact * modes_[h].state.head(harmonics_[h].squares.size());
 }
 
 /// Places of the nodes near the ground at the start.
@@ -79,7 +82,7 @@ Eigen::VectorXd RingWheel::forces_that_hold(std::span<const std::size_t> nodes) 
     const auto row = static_cast<Index>(2 * i);
     moved.segment<2>(row) << by.x, by.y;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
-      const Block& b = beyond_[pair(near.node, near_[nodes[j]].node)];
+      const Block& b = beyond(near.node, near_[nodes[j]].node);
       g.block<2, 2>(row, static_cast<Index>(2 * j)) << b[0], b[1], b[2], b[3];
     }
   }

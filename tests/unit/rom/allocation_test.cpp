@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// The step of a reduced wheel allocates nothing.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <tuple>
+
+#include "rolling_wheel.hpp"
+#include "support/allocations.hpp"
+
+namespace rondo::rom::rolling_wheel {
+
+class Steps : public testing::TestWithParam<std::tuple<bool, bool>> {};
+
+TEST_P(Steps, OfAWheelAllocateNothing) {
+  const auto [whole, changes] = GetParam();
+  const OneBlasThread one;
+  const Disk d(4, 60, whole);
+  Rolling run{.modes = 40};
+  if (changes) run.spins = dynamics::Table({{0.0, 25.0}, {1.0, 35.0}});
+  Wheel w(d, run);
+  int n = 0, contacts = 0;
+  const auto pressed = [&](int until) {
+    for (; n < until; ++n)
+      contacts += static_cast<int>(w.wheel.step(w.motion.at(n)).contacts.size());
+  };
+  pressed(100);
+  const long before = test::allocations();
+  contacts = 0;
+  pressed(200);
+  EXPECT_EQ(test::allocations() - before, 0);
+  EXPECT_GT(contacts, 100);
+}
+INSTANTIATE_TEST_SUITE_P(Wheels, Steps, testing::Combine(testing::Bool(), testing::Bool()),
+                         [](const auto& info) {
+                           return std::string(std::get<0>(info.param) ? "mesh" : "ring") +
+                                  (std::get<1>(info.param) ? "_changing_spin" : "_constant_spin");
+                         });
+
+}  // namespace rondo::rom::rolling_wheel
