@@ -17,16 +17,19 @@ using Eigen::Index;
 /// Σ aᵀ G b of the filtered forces at both ends of the step.
 RingWheel::Products RingWheel::products() const {
   Products sum;
-  for (const int i : active_)
+  for (const int i : active_) {
+    Vec2 now, before;
     for (const int j : active_) {
-      const Memory &to = memory_of(i), &from = memory_of(j);
       const Block& g = beyond(i, j);
-      const Vec2 now = contact::apply(g, from.filtered),
-                 before = contact::apply(g, from.filtered_before);
-      sum.end += dot(to.filtered, now);
-      sum.across += dot(to.filtered, before);
-      sum.start += dot(to.filtered_before, before);
+      const Memory& from = memory_of(j);
+      now += contact::apply(g, from.filtered);
+      before += contact::apply(g, from.filtered_before);
     }
+    const Memory& to = memory_of(i);
+    sum.end += dot(to.filtered, now);
+    sum.across += dot(to.filtered, before);
+    sum.start += dot(to.filtered_before, before);
+  }
   return sum;
 }
 
