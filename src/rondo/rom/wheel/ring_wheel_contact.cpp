@@ -14,7 +14,7 @@ namespace {
 using contact::Status;
 using Eigen::Index;
 
-constexpr double near_share = 0.03;        ///< of the radius, above the ground: looked at
+constexpr double near_share = 0.05;        ///< of the radius, above the ground: looked at
 constexpr double candidate_share = 0.004;  ///< contact is solved
 constexpr double closed = -1e-14;          ///< gaps above it are closed to round-off       [m]
 constexpr double nothing = 1e-9;           ///< filtered forces below it are 0            [N/m]
