@@ -33,6 +33,7 @@ ALLOWED = {
                              "integrators/general", "integrators/hati", "integrators/fused",
                              "integrators/bodies", "integrators/solid"},
     "statics": SOLIDS,
+    "statics/inflation": {"core", "mesh", "fem"},
     "statics/latin": SOLIDS | {"statics"},
     "statics/steady": SOLIDS | {"statics"},
     "modal": {"core", "mesh", "fem"},

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Energy of a wheel at finite strain whose sectors all deform alike, with its derivatives:
+/// rubber and cords, the work of a pressure that follows the wall, and that of the spin.
+#pragma once
+#include <Eigen/SparseCore>
+#include <array>
+#include <span>
+#include <vector>
+
+#include "rondo/core/complex.hpp"
+#include "rondo/core/vec3.hpp"
+#include "rondo/fem/finite/swept_section.hpp"
+#include "rondo/fem/solid/hexahedron.hpp"
+
+namespace rondo::fem::finite {
+
+struct SectorLoads {
+  double pressure = 0.0;      ///< inside [Pa]
+  double spin_squared = 0.0;  ///< s² about the axle [1/s²]
+};
+
+/// Of a sector. A node of the section stands for the nodes of the sector's first side, and the
+/// second side is the first of the next sector, turned by R. Component c of node a is number 3a +
+/// c; components in the sector's frame: outwards, around, along the axle.
+struct SectorState {
+  double energy = 0.0;      ///< of rubber and cords                                        [J]
+  double volume = 0.0;      ///< enclosed                                                [m³]
+  double least = 0.0;       ///< smallest det F; <= 0: nothing else is set
+  std::size_t of_quad = 0;  ///< where
+  double load = 0.0;        ///< largest component of the loads at a node [N]
+  Eigen::VectorXd force;    ///< (3n) of all that is stored less the loads: 0 at free nodes in
+                            ///< equilibrium                                           [N]
+  /// (3n, 3n) K u in sector j is here u_j + next u_{j+1} + nextᵀ u_{j-1} [N/m]; with the pressure's
+  /// stiffness, without the spin's.
+  Eigen::SparseMatrix<double> here, next;
+};
+
+class SectorEnergy {
+ public:
+  explicit SectorEnergy(SweptSection section);
+  SectorEnergy(const SectorEnergy&) = delete;
+  SectorEnergy& operator=(const SectorEnergy&) = delete;
+
+  [[nodiscard]] const SweptSection& section() const noexcept { return section_; }
+  [[nodiscard]] std::size_t n_nodes() const noexcept { return section_.place.size(); }
+  /// (n) lumped in the undeformed state, of one sector [kg]
+  [[nodiscard]] std::span<const double> mass() const noexcept { return mass_; }
+  /// @param u (n) displacements [m]
+  [[nodiscard]] SectorState state(std::span<const Vec3> u, const SectorLoads& loads,
+                                  bool with_stiffness) const;
+
+  /// Stretch and force of the cords at the points of a layer.
+  struct CordPlace {
+    Vec3 reference, place;                ///< [m]
+    double angle = 0.0, angle_now = 0.0;  ///< from the direction around [rad]
+    CordState state;
+  };
+  [[nodiscard]] std::vector<CordPlace> cords(std::size_t layer, std::span<const Vec3> u) const;
+
+ private:
+  struct Layer {
+    std::vector<FaceCorners> reference;
+    std::vector<std::array<CordPoint, 4>> points;
+  };
+  class Sum;
+  [[nodiscard]] std::array<int, 2> outwards(std::array<int, 2> edge) const;
+  void make_mass();
+  template <int Corners, class Local>
+  void add(const Local& local, const std::array<int, Corners / 2>& nodes, double share,
+           Sum& sum) const;
+
+  SweptSection section_;
+  Complex turn_;  ///< R, by the angle of a sector
+  std::vector<HexahedronPoints> points_;
+  std::vector<Layer> layers_;
+  std::vector<double> mass_;
+};
+
+}  // namespace rondo::fem::finite

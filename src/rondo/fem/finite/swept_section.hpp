@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The section of a wheel at finite strain, from which all its equal sectors are made:
+/// rubber, cords, the surface that holds the air.
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondo/core/vec2.hpp"
+#include "rondo/fem/finite/cord_face.hpp"
+#include "rondo/fem/rubber.hpp"
+
+namespace rondo::fem::finite {
+
+struct SweptQuad {
+  std::array<int, 4> corner{};  ///< in either sense
+  int rubber = 0;
+};
+
+/// Edges of a curve in its direction: from, to.
+using Curve = std::vector<std::array<int, 2>>;
+
+/// A layer of cords along a curve.
+struct Cords {
+  std::string name;
+  CordLaw law;
+  double angle = 0.0;    ///< from the direction around towards that of the curve          [rad]
+  double spacing = 0.0;  ///< across the cords                                           [m]
+  std::optional<double> spacing_radius;  ///< where it is that: the number of cords around is the
+                                         ///< same everywhere                          [m]
+  double excess_mass = 0.0;  ///< of a metre of cord beyond that of the rubber in its place [kg/m]
+  Curve lines;
+};
+
+/// A flat end of the enclosed volume, from a node of the section to the axle.
+struct Cap {
+  int node = 0;
+  double outward = 1.0;  ///< 1: it looks along +z, -1: along -z
+};
+
+struct SweptSection {
+  int n_sectors = 0;        ///< >= 3
+  std::vector<Vec2> place;  ///< (n) r and z [m], r > 0
+  std::vector<SweptQuad> quads;
+  std::vector<Rubber> rubbers;
+  std::vector<double> densities;  ///< of the rubbers [kg/m³]
+  std::vector<Cords> cords;
+  /// Pressed by the air, in either sense; each edge is of one quadrilateral alone. Of cords without
+  /// rubber: with the air on the right of whoever walks along it in (r, z).
+  Curve liner;
+  std::vector<Cap> caps;
+  std::vector<char> held;  ///< (3n) displacements that are given: component c of node a is 3a + c
+};
+
+}  // namespace rondo::fem::finite

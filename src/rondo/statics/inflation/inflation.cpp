@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/statics/inflation/inflation.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
+
+namespace rondo::statics {
+namespace {
+
+using Eigen::Index;
+using fem::finite::SectorEnergy;
+using fem::finite::SectorLoads;
+using fem::finite::SectorState;
+using Sparse = Eigen::SparseMatrix<double>;
+
+constexpr int most_turns = 30;
+constexpr int most_halvings = 10;
+constexpr double solved = 1e-10;  ///< residual over the largest reaction or load
+
+/// (3n) Numbers of the free displacements among all free ones; -1: it is given.
+std::vector<Index> free_rows(const SectorEnergy& wheel) {
+  std::vector<Index> rows;
+  Index n = 0;
+  for (const char held : wheel.section().held) rows.push_back(held ? -1 : n++);
+  return rows;
+}
+
+/// Sum of weight · block over the free rows and columns.
+template <class Scalar>
+struct Part {
+  const Sparse& block;
+  Scalar weight;
+  bool transposed = false;
+};
+template <class Scalar>
+Eigen::SparseMatrix<Scalar> gather(std::initializer_list<Part<Scalar>> parts,
+                                   const Eigen::VectorXd& diagonal,
+                                   const std::vector<Index>& rows) {
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  Index size = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i] < 0) continue;
+    size = rows[i] + 1;
+    entries.emplace_back(static_cast<int>(rows[i]), static_cast<int>(rows[i]),
+                         diagonal[static_cast<Index>(i)]);
+  }
+  for (const Part<Scalar>& part : parts)
+    for (Index j = 0; j < part.block.outerSize(); ++j)
+      for (Sparse::InnerIterator it(part.block, j); it; ++it) {
+        const Index row = rows[at(part.transposed ? it.col() : it.row())],
+                    column = rows[at(part.transposed ? it.row() : it.col())];
+        if (row >= 0 && column >= 0)
+          entries.emplace_back(static_cast<int>(row), static_cast<int>(column),
+                               part.weight * it.value());
+      }
+  Eigen::SparseMatrix<Scalar> k(size, size);
+  k.setFromTriplets(entries.begin(), entries.end());
+  return k;
+}
+
+/// (3n) -s² m across the axle, 0 along it.
+Eigen::VectorXd softening(const SectorEnergy& wheel, double spin_squared) {
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Index>(3 * wheel.n_nodes()));
+  for (std::size_t a = 0; a < wheel.n_nodes(); ++a)
+    d.segment<2>(static_cast<Index>(3 * a)).setConstant(-spin_squared * wheel.mass()[a]);
+  return d;
+}
+
+Sparse tangent(const SectorEnergy& wheel, const SectorState& state, double spin_squared,
+               const std::vector<Index>& rows) {
+  return gather<double>({{state.here, 1.0}, {state.next, 1.0}, {state.next, 1.0, true}},
+                        softening(wheel, spin_squared), rows);
+}
+
+/// Newton's method at one share of the loads, from the equilibrium at another.
+class Step {
+ public:
+  Step(const SectorEnergy& wheel, const InflationLoads& loads)
+      : wheel_(wheel), loads_(loads), rows_(free_rows(wheel)) {}
+
+  /// Turns that it took; 0: no end.
+  int go_to(double share, Inflation& at_) {
+    const SectorLoads now{share * loads_.sector.pressure, share * loads_.sector.spin_squared};
+    std::vector<Vec3> u = at_.u;
+    SectorState state = wheel_.state(u, now, true);
+    // Held nodes go to their places, and the others as the tangent says.
+    Eigen::VectorXd given = Eigen::VectorXd::Zero(static_cast<Index>(3 * u.size()));
+    for (std::size_t a = 0; a < u.size() && !loads_.mounting.empty(); ++a) {
+      const Vec3 step = share * loads_.mounting[a] - u[a];
+      given.segment<3>(static_cast<Index>(3 * a)) << step.x, step.y, step.z;
+    }
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (rows_[i] >= 0) given[static_cast<Index>(i)] = 0.0;
+    for (int turn = 1; turn <= most_turns; ++turn) {
+      if (!move(state, now.spin_squared, given, u)) return 0;
+      given.setZero();
+      state = wheel_.state(u, now, true);
+      if (!(state.least > 0.0)) {
+        at_.inverted = state.of_quad;
+        at_.has_inverted = true;
+        return 0;
+      }
+      const double residual = lack(state);
+      if (residual > solved) continue;
+      at_.u = std::move(u);
+      at_.state = std::move(state);
+      at_.residual = residual;
+      at_.has_inverted = false;
+      return turn;
+    }
+    return 0;
+  }
+
+ private:
+  bool move(const SectorState& state, double spin_squared, const Eigen::VectorXd& given,
+            std::vector<Vec3>& u) {
+    Eigen::VectorXd pull =
+        state.force + state.here * given + state.next * given + state.next.transpose() * given;
+    Eigen::VectorXd right(rows_.empty() ? 0 : *std::ranges::max_element(rows_) + 1);
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (rows_[i] >= 0) right[rows_[i]] = -pull[static_cast<Index>(i)];
+    const Sparse k = tangent(wheel_, state, spin_squared, rows_);
+    if (!analysed_) factor_.analyzePattern(k);
+    analysed_ = true;
+    factor_.factorize(k);
+    if (factor_.info() != Eigen::Success) return false;
+    const Eigen::VectorXd step = factor_.solve(right);
+    if (!step.allFinite()) return false;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      const double by = rows_[i] >= 0 ? step[rows_[i]] : given[static_cast<Index>(i)];
+      Vec3& to = u[i / 3];
+      (i % 3 == 0 ? to.x : i % 3 == 1 ? to.y : to.z) += by;
+    }
+    return true;
+  }
+  /// Largest force at a free node over the largest reaction or load.
+  double lack(const SectorState& state) const {
+    double worst = 0.0, largest = state.load;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      double& most = rows_[i] >= 0 ? worst : largest;
+      most = std::max(most, std::abs(state.force[static_cast<Index>(i)]));
+    }
+    return worst == 0.0 ? 0.0 : worst / largest;
+  }
+
+  const SectorEnergy& wheel_;
+  const InflationLoads& loads_;
+  std::vector<Index> rows_;
+  Eigen::SimplicialLDLT<Sparse> factor_;
+  bool analysed_ = false;
+};
+
+}  // namespace
+
+Inflation inflate(const SectorEnergy& wheel, const InflationLoads& loads) {
+  RONDO_DEMAND(
+      loads.steps >= 1 && (loads.mounting.empty() || loads.mounting.size() == wheel.n_nodes()),
+      loads.steps, loads.mounting.size());
+  Inflation out;
+  out.u.resize(wheel.n_nodes());
+  Step step(wheel, loads);
+  double size = 1.0 / loads.steps;
+  int halvings = 0;
+  while (out.share < 1.0) {
+    const double to = out.share + size > 1.0 - 1e-9 ? 1.0 : out.share + size;
+    const int turns = step.go_to(to, out);
+    if (turns == 0) {
+      if (++halvings > most_halvings) return out;
+      size *= 0.5;
+      continue;
+    }
+    out.share = to;
+    out.turns.push_back(turns);
+  }
+  out.found = true;
+  return out;
+}
+
+std::optional<int> unstable_harmonic(const SectorEnergy& wheel, const SectorState& state,
+                                     double spin_squared) {
+  using Complexes = std::complex<double>;
+  const std::vector<Index> rows = free_rows(wheel);
+  const Eigen::VectorXd softer = softening(wheel, spin_squared);
+  const int n = wheel.section().n_sectors;
+  Eigen::SimplicialLLT<Eigen::SparseMatrix<Complexes>> factor;
+  for (int k = 0; k <= n / 2; ++k) {
+    const double angle = 2.0 * std::numbers::pi * k / n;
+    const Complexes wave(std::cos(angle), std::sin(angle));
+    const auto matrix = gather<Complexes>(
+        {{state.here, 1.0}, {state.next, wave}, {state.next, std::conj(wave), true}}, softer, rows);
+    if (k == 0) factor.analyzePattern(matrix);
+    factor.factorize(matrix);
+    if (factor.info() != Eigen::Success) return k;
+  }
+  return std::nullopt;
+}
+
+}  // namespace rondo::statics

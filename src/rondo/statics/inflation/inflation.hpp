@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Equilibrium of a wheel under the pressure of its air, its spin and the places of its rim,
+/// at finite strain; all sectors deform alike. Newton's method in steps of the loads.
+#pragma once
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rondo/fem/finite/sector_energy.hpp"
+
+namespace rondo::statics {
+
+struct InflationLoads {
+  fem::finite::SectorLoads sector;
+  std::vector<Vec3> mounting;  ///< (n) displacements where they are given; empty: 0          [m]
+  int steps = 5;               ///< in which all loads grow together
+};
+
+struct Inflation {
+  bool found = false;
+  double share = 0.0;         ///< of the loads that has an equilibrium; 1: all
+  std::vector<Vec3> u;        ///< (n) at that share [m]
+  std::vector<int> turns;     ///< of Newton's method in each step
+  double residual = 0.0;      ///< largest force at a free node, over the largest reaction or load
+  std::size_t inverted = 0;   ///< quadrilateral that turned inside out in the last attempt, if
+  bool has_inverted = false;  ///< one did
+  fem::finite::SectorState state;  ///< with stiffness
+};
+
+[[nodiscard]] Inflation inflate(const fem::finite::SectorEnergy& wheel,
+                                const InflationLoads& loads);
+
+/// The lowest harmonic around the wheel in which the equilibrium is not stable, as seen by who
+/// turns with it: K(k) - s² M P is not positive definite.
+[[nodiscard]] std::optional<int> unstable_harmonic(const fem::finite::SectorEnergy& wheel,
+                                                   const fem::finite::SectorState& state,
+                                                   double spin_squared);
+
+}  // namespace rondo::statics
