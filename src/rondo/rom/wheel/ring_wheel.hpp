@@ -290,8 +290,10 @@ class RingWheel {
   }
   /// Place of a pair of nodes in beyond_ and compliance_.
   [[nodiscard]] std::size_t pair(int to, int from) const noexcept {
-    return static_cast<std::size_t>((lag(to, from) * n_contact_ + local(from)) * n_contact_ +
-                                    local(to));
+    const auto c = static_cast<std::size_t>(n_contact_),
+               d = static_cast<std::size_t>(lag(to, from));
+    return (d * c + static_cast<std::size_t>(local(from))) * c +
+           static_cast<std::size_t>(local(to));
   }
   [[nodiscard]] const Block& beyond(int to, int from) const {
     const std::size_t p = pair(to, from);
