@@ -115,13 +115,21 @@ void RingWheel::make_beyond(int to, int from) const {
 
 /// Finds the matrices of a harmonic. With h = ½Δt the middle of the step solves
 /// [c, -h; hL, c + hD] (y_m, p_m) = (y, p + hf).
-void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Modes& s) const {
+void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Modes& s) {
   const double half = 0.5 * settings_.dt;
   s.turn = 1.0 + half * Complexes(0.0, of.k * spin);
   s.lever = half / s.turn;
   s.stiff = (of.squares.array() - spin * spin).matrix();
   s.twisted = rate;
   const auto damping = settings_.mass_damping + settings_.stiffness_damping * of.squares.array();
+  if (is_whole()) {
+    real_.step = (2.0 * half * spin + half * rate * half) * of.coriolis.real();
+    real_.step.diagonal().array() += 1.0 + half * damping + half * half * s.stiff.array();
+    real_.factor.compute(real_.step);
+    real_.inverse = real_.factor.solve(real_.one);
+    s.inverse = real_.inverse.cast<Complexes>();
+    return;
+  }
   s.step = (2.0 * half * spin + half * rate * s.lever) * of.coriolis;
   s.step.diagonal().array() += s.turn + half * damping + half * s.lever * s.stiff.array();
   s.factor.compute(s.step);
@@ -129,21 +137,6 @@ void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Mode
   const double share = settings_.theta * settings_.dt * of.weight() / ring_.n_sectors();
   s.reply.noalias() = s.inverse * of.contact.adjoint();
   s.answer.noalias() = share * s.lever * of.contact * s.reply;
-}
-
-/// The same of a ring of one sector, where all is real.
-void RingWheel::fill_whole_step(const RingHarmonic& of, double spin, double rate, Modes& s) {
-  const double half = 0.5 * settings_.dt;
-  s.turn = 1.0;
-  s.lever = half;
-  s.stiff = (of.squares.array() - spin * spin).matrix();
-  s.twisted = rate;
-  const auto damping = settings_.mass_damping + settings_.stiffness_damping * of.squares.array();
-  real_.step = (2.0 * half * spin + half * rate * half) * of.coriolis.real();
-  real_.step.diagonal().array() += 1.0 + half * damping + half * half * s.stiff.array();
-  real_.factor.compute(real_.step);
-  real_.inverse = real_.factor.solve(real_.one);
-  s.inverse = real_.inverse.cast<Complexes>();
 }
 
 /// (2r) What a force on the modes does in a step.
@@ -172,10 +165,7 @@ void RingWheel::take_spin(const WheelMotion& m, double rate, double end) {
   const double spin = rate == 0.0 ? end : (m.angle_next - m.angle) / dt;
   set_residual(end);
   for (std::size_t h = 0; h < harmonics_.size(); ++h)
-    if (is_whole())
-      fill_whole_step(harmonics_[h], spin, rate, modes_[h]);
-    else
-      fill_step(harmonics_[h], spin, rate, modes_[h]);
+    fill_step(harmonics_[h], spin, rate, modes_[h]);
   has_shift_ = false;
 }
 

@@ -211,8 +211,7 @@ class RingWheel {
   static constexpr std::size_t numbers_of_node = 15;
   void use_spin(const WheelMotion& motion);
   void take_spin(const WheelMotion& motion, double rate, double end);
-  void fill_step(const RingHarmonic& of, double spin, double rate, Modes& modes) const;
-  void fill_whole_step(const RingHarmonic& of, double spin, double rate, Modes& modes);
+  void fill_step(const RingHarmonic& of, double spin, double rate, Modes& modes);
   void push_by(const Modes& modes, const Vector& force, Vector& out) const;
   void shift_modes();
   void twist_modes();
