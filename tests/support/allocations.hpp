@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  How often this program has asked for memory, by new or by malloc (matrices of Eigen do);
-/// of programs that are linked with count_allocations.cpp.
+/// @file  How often this program has asked for memory: by new, and by malloc (matrices of Eigen do)
+/// where it is linked with --wrap=malloc.
 #pragma once
 
 namespace rondo::test {

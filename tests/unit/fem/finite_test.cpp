@@ -154,7 +154,12 @@ TEST(FiniteRubber, ATurnStoresNothing) {
 TEST(FiniteRubber, AnInvertedElementHasNoEnergy) {
   HexahedronCorners u{};
   u[6] = {-3.0, -3.0, -3.0};
-  EXPECT_LE(rubber_hexahedron(hexahedron_points(block()), u, rubbers()[0]).least, 0.0);
+  const RubberEnergy e = rubber_hexahedron(hexahedron_points(block()), u, rubbers()[0]);
+  EXPECT_LE(e.least, 0.0);
+  EXPECT_EQ(e.value, 0.0);
+  EXPECT_EQ(e.force.norm(), 0.0);
+  u[6].x = std::nan("");
+  EXPECT_FALSE(rubber_hexahedron(hexahedron_points(block()), u, rubbers()[0]).least > 0.0);
 }
 
 namespace {

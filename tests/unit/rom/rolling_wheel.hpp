@@ -109,7 +109,7 @@ class Motion {
   }
 
  private:
-  const Rolling& run_;
+  Rolling run_;
   double dt_;
   dynamics::Table height_, spin_;
 };

@@ -21,8 +21,8 @@ struct CordPoint {
 
 struct CordLaw {
   double stiffness = 0.0;    ///< EA: force over nominal stretch                              [N]
-  double prestrain = 0.0;    ///< e0: force EA (stretch - 1 + e0)
-  double compression = 1.0;  ///< share of the stiffness in compression
+  double prestrain = 0.0;    ///< e0: force EA (stretch - 1 + e0), there from the first step
+  double compression = 1.0;  ///< share of the stiffness in compression, > 0
 };
 
 /// The four points of a face in the undeformed state.

@@ -131,7 +131,7 @@ IsochoricState ogden(const Rubber& r, const Matrix3d& f) {
       const double along = (by(i, j) - (i == j ? 2.0 * t[i] : 0.0)) / (squares[i] * squares[j]);
       out.modulus += along * ii * jj.transpose();
       if (i == j) continue;
-      // (S_i - S_j)/(λ_i² - λ_j²); where both stretches are one, its limit.
+      // (S_i - S_j)/(λ_i² - λ_j²); where both are equal, its limit.
       const double apart = squares[i] - squares[j];
       const double limit = 0.5 * (by(i, i) - by(i, j) - 2.0 * t[i]) / (squares[i] * squares[i]);
       const double slope =

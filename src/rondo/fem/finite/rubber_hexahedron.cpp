@@ -2,7 +2,6 @@
 #include "rondo/fem/finite/rubber_hexahedron.hpp"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -51,7 +50,7 @@ RubberEnergy rubber_hexahedron(const HexahedronPoints& points, const HexahedronC
     // det(1 + h) - 1 keeps its digits as a sum of the invariants of h.
     const double less_one =
         h.trace() + 0.5 * (h.trace() * h.trace() - (h * h).trace()) + h.determinant();
-    out.least = std::min(out.least, 1.0 + less_one);
+    if (!(1.0 + less_one >= out.least)) out.least = 1.0 + less_one;  // also not a number
     volume += points.volume[q];
     change += points.volume[q] * less_one;
   }

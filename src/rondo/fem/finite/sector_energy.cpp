@@ -95,11 +95,13 @@ SectorEnergy::SectorEnergy(SweptSection section)
     : section_(std::move(section)), turn_(rotation(2.0 * std::numbers::pi / section_.n_sectors)) {
   RONDO_DEMAND(section_.n_sectors >= 3 && section_.held.size() == 3 * section_.place.size(),
                section_.n_sectors, section_.held.size(), section_.place.size());
+  check();
   std::vector<Vec3> x;
   for (const Vec2 p : section_.place) x.push_back(in_sector(p));
   for (SweptQuad& quad : section_.quads) {
     const auto corners = swept(quad.corner, x, turn_);
     if (smallest_jacobian(corners) < 0.0) std::swap(quad.corner[1], quad.corner[3]);
+    RONDO_DEMAND(smallest_jacobian(swept(quad.corner, x, turn_)) > 0.0, quad.corner[0]);
     points_.push_back(hexahedron_points(swept(quad.corner, x, turn_)));
   }
   for (auto& edge : section_.liner) edge = outwards(edge);
@@ -120,6 +122,35 @@ SectorEnergy::SectorEnergy(SweptSection section)
     }
   }
   make_mass();
+}
+
+/// What the types do not say of a section.
+void SectorEnergy::check() const {
+  const std::size_t n = n_nodes();
+  RONDO_DEMAND(section_.densities.size() == section_.rubbers.size(), section_.densities.size(),
+               section_.rubbers.size());
+  for (const Vec2 p : section_.place) RONDO_DEMAND(p.x > 0.0, p.x, p.y);
+  for (const SweptQuad& quad : section_.quads)
+    RONDO_DEMAND(at(quad.rubber) < section_.rubbers.size(), quad.rubber);
+  for (const Cords& cords : section_.cords) {
+    RONDO_DEMAND(cords.spacing > 0.0 && cords.law.stiffness > 0.0, cords.spacing,
+                 cords.law.stiffness);
+    std::vector<int> out(n), in(n);
+    for (const auto& [from, to] : cords.lines) {
+      ++out[at(from)];
+      ++in[at(to)];
+    }
+    for (std::size_t a = 0; a < n; ++a) RONDO_DEMAND(out[a] <= 1 && in[a] <= 1, a, out[a], in[a]);
+  }
+  std::vector<int> edges(n);
+  for (const auto& edge : section_.liner)
+    for (const int a : edge) ++edges[at(a)];
+  for (std::size_t a = 0; a < n; ++a) {
+    const bool held = section_.held[3 * a] && section_.held[3 * a + 1] && section_.held[3 * a + 2];
+    const bool capped =
+        std::ranges::find(section_.caps, static_cast<int>(a), &Cap::node) != section_.caps.end();
+    RONDO_DEMAND(edges[a] % 2 == 0 || held || capped, a, edges[a]);
+  }
 }
 
 /// An edge of the liner in that direction in which its face looks away from the air: towards the
@@ -223,9 +254,10 @@ std::vector<SectorEnergy::CordPlace> SectorEnergy::cords(std::size_t layer,
     for (std::size_t q = 0; q < 4; ++q) {
       CordPlace p{before[q], now[q], cords.angle, 0.0,
                   cord_state(layers_[layer].points[e][q], face, cords.law)};
-      const Vec3 across = face_point(face, q).across, along = p.state.along;
-      const double c = dot(across, along) / norm(across);
-      p.angle_now = std::atan2(std::copysign(std::sqrt(std::max(0.0, 1.0 - c * c)), p.angle), c);
+      const FacePoint here = face_point(face, q);
+      const Vec3 around = here.across / norm(here.across),
+                 rest = here.along - dot(here.along, around) * around;
+      p.angle_now = std::atan2(dot(p.state.along, rest) / norm(rest), dot(p.state.along, around));
       out.push_back(p);
     }
   }

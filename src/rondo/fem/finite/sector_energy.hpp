@@ -24,8 +24,9 @@ struct SectorLoads {
 /// c; components in the sector's frame: outwards, around, along the axle.
 struct SectorState {
   double energy = 0.0;      ///< of rubber and cords                                        [J]
-  double volume = 0.0;      ///< enclosed                                                [m³]
-  double least = 0.0;       ///< smallest det F; <= 0: nothing else is set
+  double volume = 0.0;      ///< of the cones from the origin, and caps: what is enclosed where
+                            ///< the liner and its caps close [m³]
+  double least = 0.0;       ///< smallest det F; <= 0: no force is set
   std::size_t of_quad = 0;  ///< where
   double load = 0.0;        ///< largest component of the loads at a node [N]
   Eigen::VectorXd force;    ///< (3n) of all that is stored less the loads: 0 at free nodes in
@@ -37,6 +38,8 @@ struct SectorState {
 
 class SectorEnergy {
  public:
+  /// @pre nodes and rubbers exist; r, spacings and stiffnesses are > 0; a line of cords goes from
+  /// node to node in one direction; where the liner ends, its node is held or has a cap
   explicit SectorEnergy(SweptSection section);
   SectorEnergy(const SectorEnergy&) = delete;
   SectorEnergy& operator=(const SectorEnergy&) = delete;
@@ -64,6 +67,7 @@ class SectorEnergy {
   };
   class Sum;
   [[nodiscard]] std::array<int, 2> outwards(std::array<int, 2> edge) const;
+  void check() const;
   void make_mass();
   template <int Corners, class Local>
   void add(const Local& local, const std::array<int, Corners / 2>& nodes, double share,

@@ -41,16 +41,18 @@ struct Cap {
 
 struct SweptSection {
   int n_sectors = 0;        ///< >= 3
-  std::vector<Vec2> place;  ///< (n) r and z [m], r > 0
+  std::vector<Vec2> place;  ///< (n) x is r, y is z: along the axle [m], r > 0
   std::vector<SweptQuad> quads;
   std::vector<Rubber> rubbers;
   std::vector<double> densities;  ///< of the rubbers [kg/m³]
   std::vector<Cords> cords;
   /// Pressed by the air, in either sense; each edge is of one quadrilateral alone. Of cords without
-  /// rubber: with the air on the right of whoever walks along it in (r, z).
+  /// rubber: with the air on the right of whoever walks along it in (r, z). Where it ends, its node
+  /// is held or has a cap: elsewhere the air would leak, and its force be wrong.
   Curve liner;
   std::vector<Cap> caps;
-  std::vector<char> held;  ///< (3n) displacements that are given: component c of node a is 3a + c
+  std::vector<char> held;  ///< (3n) displacements that are given: outwards 3a, around 3a + 1, along
+                           ///< the axle 3a + 2
 };
 
 }  // namespace rondo::fem::finite

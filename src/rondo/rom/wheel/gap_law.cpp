@@ -152,10 +152,12 @@ double GapLaw::residual(std::span<const GapContact> contacts, double friction) c
   for (const GapContact& c : contacts) {
     const double normal = std::max(0.0, c.normal - c.gap / mean_), most = friction * normal;
     const double shear = std::clamp(c.shear - c.slip / mean_, -most, most);
-    const double missed = std::abs(c.normal - normal) + std::abs(c.shear - shear);
+    const double missed =
+        (c.normal - normal) * (c.normal - normal) + (c.shear - shear) * (c.shear - shear);
     if (!(missed <= worst)) worst = missed;  // also not a number
     largest = std::max({largest, std::abs(c.normal), std::abs(c.free_gap) / mean_});
   }
+  worst = std::sqrt(worst);
   return largest > 0.0 ? worst / largest : worst;
 }
 

@@ -16,7 +16,7 @@ using Eigen::Index;
 
 }  // namespace
 
-RingWheel::Modes::Modes(const RingHarmonic& of) {
+RingWheel::Modes::Modes(const RingHarmonic& of, bool whole) {
   const Index r = of.squares.size(), c = of.contact.rows();
   for (Vector* v : {&state, &before, &work, &shift, &twist}) v->setZero(2 * r);
   for (Vector* v : {&force, &outside, &held, &left, &pushed}) v->setZero(r);
@@ -25,6 +25,7 @@ RingWheel::Modes::Modes(const RingHarmonic& of) {
   stiff.setZero(r);
   for (Matrix* m : {&inverse, &step}) m->setZero(r, r);
   one.setIdentity(r, r);
+  if (whole) return;  // these are in Real
   reply.setZero(r, c);
   answer.setZero(c, c);
 }
@@ -75,7 +76,7 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
   touch_.reserve(n);
   law_.reserve(n);
   contacts_.reserve(n);
-  for (const RingHarmonic& h : harmonics_) modes_.emplace_back(h);
+  for (const RingHarmonic& h : harmonics_) modes_.emplace_back(h, is_whole());
   if (!is_whole()) return;
   std::vector<Vec2> arms;
   for (int node = 0; node < n_contact_; ++node) arms.push_back(arm(node));
@@ -222,6 +223,7 @@ void RingWheel::leave_forces(const WheelMotion& m) {
 }
 
 Eigen::MatrixXd RingWheel::compliance(int lag) {
+  RONDO_DEMAND(has_matrices_);
   const int n = ring_.n_sectors(), d = (lag % n + n) % n;
   Eigen::MatrixXd w(ring_.n_contact(), ring_.n_contact());
   for (int from = 0; from < n_contact_; ++from)

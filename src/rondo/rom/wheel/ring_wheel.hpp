@@ -133,7 +133,7 @@ class RingWheel {
 
   /// The modes of a harmonic; their coefficients y and velocities p are one after the other.
   struct Modes {
-    explicit Modes(const RingHarmonic& of);
+    Modes(const RingHarmonic& of, bool whole);
 
     Vector state, before;   ///< (2r) at the end of the last step, and of the one before
     Vector force, outside;  ///< (r) of the contact, φ_cᴴ λ; of the frame
@@ -316,7 +316,7 @@ class RingWheel {
   double residual_before_ = 0.0;  ///< energy at its start by the spin of the step before   [J/m]
   Eigen::VectorXd centrifugal_;   ///< (rows) of the spin at its end          [m]
   // Entries of the tables are made when they are asked for; they are good where `made` is version_.
-  int version_ = 0;                    ///< of the spin, counted
+  int version_ = 1;                    ///< of the spin, counted
   mutable std::vector<Block> beyond_;  ///< (N, C, C) G[lag], frames of the sectors          [m²/N]
   mutable std::vector<int> beyond_made_;
   /// (N, C, C) W[lag], turned by the lag: `same` is that of the fixed frame             [m²/N]

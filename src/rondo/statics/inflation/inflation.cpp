@@ -21,6 +21,8 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 constexpr int most_turns = 30;
 constexpr int most_halvings = 10;
+constexpr double least_pivot = 1e-12;  ///< of a stable harmonic, over the largest
+constexpr double round_off = 1e-14;
 constexpr double solved = 1e-10;  ///< residual over the largest reaction or load
 
 /// (3n) Numbers of the free displacements among all free ones; -1: it is given.
@@ -31,13 +33,13 @@ std::vector<Index> free_rows(const SectorEnergy& wheel) {
   return rows;
 }
 
-/// Sum of weight · block over the free rows and columns.
 template <class Scalar>
 struct Part {
   const Sparse& block;
   Scalar weight;
   bool transposed = false;
 };
+/// Sum of weight · block over the free rows and columns.
 template <class Scalar>
 Eigen::SparseMatrix<Scalar> gather(std::initializer_list<Part<Scalar>> parts,
                                    const Eigen::VectorXd& diagonal,
@@ -84,10 +86,11 @@ class Step {
   Step(const SectorEnergy& wheel, const InflationLoads& loads)
       : wheel_(wheel), loads_(loads), rows_(free_rows(wheel)) {}
 
-  /// Turns that it took; 0: no end.
-  int go_to(double share, Inflation& at_) {
+  /// Number of turns; 0: it did not converge.
+  int go_to(double share, Inflation& out) {
+    out.has_inverted = false;
     const SectorLoads now{share * loads_.sector.pressure, share * loads_.sector.spin_squared};
-    std::vector<Vec3> u = at_.u;
+    std::vector<Vec3> u = out.u;
     SectorState state = wheel_.state(u, now, true);
     // Held nodes go to their places, and the others as the tangent says.
     Eigen::VectorXd given = Eigen::VectorXd::Zero(static_cast<Index>(3 * u.size()));
@@ -101,17 +104,17 @@ class Step {
       if (!move(state, now.spin_squared, given, u)) return 0;
       given.setZero();
       state = wheel_.state(u, now, true);
-      if (!(state.least > 0.0)) {
-        at_.inverted = state.of_quad;
-        at_.has_inverted = true;
+      if (!(state.least > 0.0) || !state.force.allFinite()) {
+        out.inverted = state.of_quad;
+        out.has_inverted = true;
         return 0;
       }
       const double residual = lack(state);
-      if (residual > solved) continue;
-      at_.u = std::move(u);
-      at_.state = std::move(state);
-      at_.residual = residual;
-      at_.has_inverted = false;
+      if (!(residual <= solved)) continue;
+      out.u = std::move(u);
+      out.state = std::move(state);
+      out.residual = residual;
+      out.has_inverted = false;
       return turn;
     }
     return 0;
@@ -146,7 +149,10 @@ class Step {
       double& most = rows_[i] >= 0 ? worst : largest;
       most = std::max(most, std::abs(state.force[static_cast<Index>(i)]));
     }
-    return worst == 0.0 ? 0.0 : worst / largest;
+    // Without loads there is but the round-off of forces.
+    const double noise =
+        round_off * state.here.diagonal().cwiseAbs().maxCoeff() * wheel_.section().place[0].x;
+    return worst <= noise ? 0.0 : worst / largest;
   }
 
   const SectorEnergy& wheel_;
@@ -177,6 +183,7 @@ Inflation inflate(const SectorEnergy& wheel, const InflationLoads& loads) {
     }
     out.share = to;
     out.turns.push_back(turns);
+    size = std::min(2.0 * size, 1.0 / loads.steps);
   }
   out.found = true;
   return out;
@@ -185,10 +192,12 @@ Inflation inflate(const SectorEnergy& wheel, const InflationLoads& loads) {
 std::optional<int> unstable_harmonic(const SectorEnergy& wheel, const SectorState& state,
                                      double spin_squared) {
   using Complexes = std::complex<double>;
+  RONDO_DEMAND(state.here.rows() == static_cast<Index>(3 * wheel.n_nodes()) && state.least > 0.0,
+               state.here.rows(), state.least);
   const std::vector<Index> rows = free_rows(wheel);
   const Eigen::VectorXd softer = softening(wheel, spin_squared);
   const int n = wheel.section().n_sectors;
-  Eigen::SimplicialLLT<Eigen::SparseMatrix<Complexes>> factor;
+  Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complexes>> factor;
   for (int k = 0; k <= n / 2; ++k) {
     const double angle = 2.0 * std::numbers::pi * k / n;
     const Complexes wave(std::cos(angle), std::sin(angle));
@@ -197,6 +206,8 @@ std::optional<int> unstable_harmonic(const SectorEnergy& wheel, const SectorStat
     if (k == 0) factor.analyzePattern(matrix);
     factor.factorize(matrix);
     if (factor.info() != Eigen::Success) return k;
+    const Eigen::VectorXd pivots = factor.vectorD().real();
+    if (!(pivots.minCoeff() > least_pivot * pivots.maxCoeff())) return k;
   }
   return std::nullopt;
 }

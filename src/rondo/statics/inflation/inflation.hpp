@@ -12,12 +12,12 @@ namespace rondo::statics {
 
 struct InflationLoads {
   fem::finite::SectorLoads sector;
-  std::vector<Vec3> mounting;  ///< (n) displacements where they are given; empty: 0          [m]
+  std::vector<Vec3> mounting;  ///< (n) displacements, read where they are given; empty: 0    [m]
   int steps = 5;               ///< in which all loads grow together
 };
 
 struct Inflation {
-  bool found = false;
+  bool found = false;         ///< also where it is not stable: see unstable_harmonic()
   double share = 0.0;         ///< of the loads that has an equilibrium; 1: all
   std::vector<Vec3> u;        ///< (n) at that share [m]
   std::vector<int> turns;     ///< of Newton's method in each step
@@ -31,7 +31,8 @@ struct Inflation {
                                 const InflationLoads& loads);
 
 /// The lowest harmonic around the wheel in which the equilibrium is not stable, as seen by who
-/// turns with it: K(k) - s² M P is not positive definite.
+/// turns with it: K(k) - s² M P is not positive definite to round-off. A wheel that nothing holds
+/// against a rigid motion is not. @param state with stiffness, of this spin
 [[nodiscard]] std::optional<int> unstable_harmonic(const fem::finite::SectorEnergy& wheel,
                                                    const fem::finite::SectorState& state,
                                                    double spin_squared);
