@@ -38,19 +38,11 @@ void eliminate(Eigen::Map<Eigen::MatrixXd> a, double* b) {
       b[i] -= pivots[i] * b[k];
     }
     const double* __restrict by = pivots;
-    Index j = k + 1;
-    for (; j + 1 < n; j += 2) {  // two at once: half of the loops
-      double* __restrict one = &a(0, j);
-      double* __restrict two = one + n;
-      const double top = one[k], also = two[k];
-      for (Index i = k + 1; i < n; ++i) {
-        one[i] -= by[i] * top;
-        two[i] -= by[i] * also;
-      }
+    for (Index j = k + 1; j < n; ++j) {
+      double* __restrict column = &a(0, j);
+      const double top = column[k];
+      for (Index i = k + 1; i < n; ++i) column[i] -= by[i] * top;
     }
-    if (j == n) continue;
-    double* __restrict last = &a(0, j);
-    for (Index i = k + 1; i < n; ++i) last[i] -= by[i] * last[k];
   }
   for (Index k = n; k-- > 0;) {
     const double* column = &a(0, k);
