@@ -112,7 +112,7 @@ SweptSection everything() {
 }
 
 double potential(const SectorEnergy& wheel, std::span<const Vec3> u, const SectorLoads& loads) {
-  const SectorState s = wheel.state(u, loads, false);
+  const SectorState s = wheel.state(u, loads);
   double spin = 0.0;
   for (std::size_t a = 0; a < u.size(); ++a)
     spin += wheel.mass()[a] * (std::pow(wheel.section().place[a].x + u[a].x, 2) + u[a].y * u[a].y);
@@ -192,7 +192,7 @@ TEST(SectorEnergy, ForcesAndStiffnessAreDerivativesOfThePotential) {
   const SectorEnergy wheel(everything());
   const std::vector<Vec3> u = at_random(wheel.n_nodes(), 0.02);
   const SectorLoads loads{0.3, 0.16};
-  const SectorState here = wheel.state(u, loads, true);
+  const SectorState here = wheel.state(u, loads);
   ASSERT_GT(here.least, 0.5);
   Eigen::MatrixXd k = harmonic(here, 0, 12).real();
   for (std::size_t a = 0; a < u.size(); ++a)
@@ -216,7 +216,7 @@ TEST(SectorEnergy, ForcesAndStiffnessAreDerivativesOfThePotential) {
           std::abs((potential(wheel, more, loads) - potential(wheel, less, loads)) / (2.0 * h) -
                    here.force[row]));
       const Eigen::VectorXd difference =
-          wheel.state(more, loads, false).force - wheel.state(less, loads, false).force;
+          wheel.state(more, loads).force - wheel.state(less, loads).force;
       stiffness[fine] =
           std::max(stiffness[fine], (difference / (2.0 * h) - k.col(row)).cwiseAbs().maxCoeff());
     }
@@ -236,7 +236,7 @@ TEST(SectorEnergy, BlocksKnowTheirNeighbours) {
   section.liner = {{0, 1}, {1, 3}, {3, 5}, {5, 4}, {4, 2}, {2, 0}};
   const SectorEnergy wheel(section);
   const std::vector<Vec3> u = at_random(wheel.n_nodes(), 0.02);
-  const SectorState s = wheel.state(u, {0.3, 0.0}, true);
+  const SectorState s = wheel.state(u, {0.3, 0.0});
   const double angle = 2.0 * pi / 12.0;
   const auto moved = [&](int sector) {  // by one along x, in the frame of a sector
     Eigen::VectorXd v = Eigen::VectorXd::Zero(s.force.size());
@@ -303,7 +303,7 @@ TEST(Inflation, ANettingTurnsToItsAngle) {
     EXPECT_NEAR(now, length, 2e-9);
     EXPECT_NEAR(1.0 + out.u[0].x / 0.1, radius, 2e-9);
     for (const auto& p : wheel.cords(0, out.u))
-      EXPECT_NEAR(p.angle_now * 180.0 / pi, 90.0 - 54.7356, 5e-5);
+      EXPECT_NEAR(p.angle * 180.0 / pi, 90.0 - 54.7356, 5e-5);
   }
 }
 
@@ -483,11 +483,11 @@ TEST(SectorEnergy, AnglesOfCordsHaveTheirSign) {
   for (const double lean : {1.0, -1.0}) {
     std::vector<Vec3> u(4);
     u[1].z = u[3].z = 0.02;  // wider: angles about the axle stay as they are
-    EXPECT_NEAR(wheel.cords(0, u)[0].angle_now, 0.0, 1e-14);
+    EXPECT_NEAR(wheel.cords(0, u)[0].angle, 0.0, 1e-14);
     section.cords[0].angle = lean * 0.3;
     const SectorEnergy leaning(section);
     for (const auto& p : leaning.cords(0, u))
-      EXPECT_NEAR(std::tan(p.angle_now), 1.2 * std::tan(lean * 0.3), 1e-12);
+      EXPECT_NEAR(std::tan(p.angle), 1.2 * std::tan(lean * 0.3), 1e-12);
   }
 }
 

@@ -8,12 +8,6 @@
 
 namespace rondo::fem::finite {
 
-std::array<Vec3, 4> face_points(const FaceCorners& x) noexcept {
-  std::array<Vec3, 4> place;
-  for (std::size_t q = 0; q < 4; ++q) place[q] = face_point(x, q).place;
-  return place;
-}
-
 std::array<CordPoint, 4> cord_points(const FaceCorners& x, const std::array<double, 4>& angle,
                                      const std::array<double, 4>& spacing) noexcept {
   std::array<CordPoint, 4> points;

@@ -32,9 +32,6 @@ struct CordLaw {
 [[nodiscard]] std::array<CordPoint, 4> cord_points(const FaceCorners& x,
                                                    const std::array<double, 4>& angle,
                                                    const std::array<double, 4>& spacing) noexcept;
-/// Places of the points, which spacings and angles may depend on [m].
-[[nodiscard]] std::array<Vec3, 4> face_points(const FaceCorners& x) noexcept;
-
 /// Stretch and force of the cords at a point of the deformed face.
 struct CordState {
   double stretch = 1.0;

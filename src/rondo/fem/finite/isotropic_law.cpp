@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
 
 namespace rondo::fem::finite {
 namespace {
@@ -114,19 +115,15 @@ IsochoricState ogden(const Rubber& r, const Matrix3d& f) {
                     ((i == j ? power[i] : 0.0) - (power[i] + power[j] - third) / 3.0);
   }
   const Eigen::Vector3d s = t.cwiseQuotient(squares);
-  // Of an axis: F N_i, so that P = Σ S_i F N_i ⊗ N_i.
   const Matrix3d fn = f * n;
-  out.stress.setZero();
+  out.stress.setZero();  // P = Σ S_i F N_i ⊗ N_i
   out.modulus = paired(Matrix3d::Identity(), n * s.asDiagonal() * n.transpose());
   std::array<std::array<Nine, 3>, 3> dyad;  // F N_i ⊗ N_j
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      dyad[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
-          flat(fn.col(i) * n.col(j).transpose());
+    for (int j = 0; j < 3; ++j) dyad[at(i)][at(j)] = flat(fn.col(i) * n.col(j).transpose());
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      const Nine &ii = dyad[static_cast<std::size_t>(i)][static_cast<std::size_t>(i)],
-                 &jj = dyad[static_cast<std::size_t>(j)][static_cast<std::size_t>(j)];
+      const Nine &ii = dyad[at(i)][at(i)], &jj = dyad[at(j)][at(j)];
       if (i == j) out.stress += s[i] * ii;
       const double along = (by(i, j) - (i == j ? 2.0 * t[i] : 0.0)) / (squares[i] * squares[j]);
       out.modulus += along * ii * jj.transpose();
@@ -136,8 +133,7 @@ IsochoricState ogden(const Rubber& r, const Matrix3d& f) {
       const double limit = 0.5 * (by(i, i) - by(i, j) - 2.0 * t[i]) / (squares[i] * squares[i]);
       const double slope =
           std::abs(apart) > 1e-6 * (squares[i] + squares[j]) ? (s[i] - s[j]) / apart : limit;
-      const Nine &ij = dyad[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)],
-                 &ji = dyad[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
+      const Nine &ij = dyad[at(i)][at(j)], &ji = dyad[at(j)][at(i)];
       out.modulus += slope * ij * (ij + ji).transpose();
     }
   return out;

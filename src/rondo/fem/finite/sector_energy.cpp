@@ -17,111 +17,101 @@ namespace {
 
 using Eigen::Index;
 
-Vec3 in_sector(Vec2 place) noexcept {
-  return {place.x, 0.0, place.y};
-}
-
-/// Corners of what a polygon of the section sweeps: of this side, then of the next.
-template <std::size_t N>
-std::array<Vec3, 2 * N> swept(const std::array<int, N>& nodes, std::span<const Vec3> x,
-                              Complex turn) noexcept {
-  std::array<Vec3, 2 * N> corners;
-  for (std::size_t a = 0; a < N; ++a) {
-    corners[a] = x[at(nodes[a])];
-    corners[N + a] = turn * corners[a];
-  }
-  return corners;
-}
-
-/// Corners of a face in their order around it, of a line of the section.
-FaceCorners face_of(const std::array<int, 2>& line, std::span<const Vec3> x,
-                    Complex turn) noexcept {
-  const std::array<Vec3, 4> c = swept(line, x, turn);
-  return {c[0], c[1], c[3], c[2]};
-}
-
-/// Of a face, with its corners in the order of swept().
-Energy<4> by_sides(const Energy<4>& of) {
-  constexpr std::array<Index, 4> to{0, 1, 3, 2};
-  Energy<4> out;
-  out.value = of.value;
-  for (Index a = 0; a < 4; ++a) {
-    const Index i = 3 * to[at(a)];
-    out.force.segment<3>(i) = of.force.segment<3>(3 * a);
-    for (Index b = 0; b < 4; ++b)
-      out.stiffness.block<3, 3>(i, 3 * to[at(b)]) = of.stiffness.block<3, 3>(3 * a, 3 * b);
-  }
-  return out;
-}
-
-}  // namespace
-
-/// Forces and, where they are wanted, blocks of a sector.
-class SectorEnergy::Sum {
- public:
-  Sum(std::size_t nodes, bool with_stiffness)
-      : force(Eigen::VectorXd::Zero(static_cast<Index>(3 * nodes))), wanted(with_stiffness) {}
-
-  Eigen::VectorXd force;
-  std::vector<Eigen::Triplet<double>> here, next;
-  bool wanted;
+/// A corner of an element of a sector: the node of the section on its first side, or on the second.
+struct Corner {
+  int node = 0;
+  bool next = false;
 };
 
-/// Adds an energy of the corners of swept(): the forces of the other side act on this one, too.
-template <int Corners, class Local>
-void SectorEnergy::add(const Local& local, const std::array<int, Corners / 2>& nodes, double share,
-                       Sum& sum) const {
-  constexpr Index half = Corners / 2;
-  Eigen::Matrix3d turn;  // R: from the frame of the next sector to this one's
-  turn << turn_.re, -turn_.im, 0.0, turn_.im, turn_.re, 0.0, 0.0, 0.0, 1.0;
-  const auto node = [&](Index a) { return Index{3} * nodes[at(a % half)]; };
-  for (Index a = 0; a < Corners; ++a) {
-    const Eigen::Vector3d f = share * local.force.template segment<3>(3 * a);
-    sum.force.segment<3>(node(a)) += a < half ? f : Eigen::Vector3d(turn.transpose() * f);
-    for (Index b = 0; b < Corners && sum.wanted; ++b) {
-      if (a >= half && b < half) continue;  // the transpose of `next`
-      Eigen::Matrix3d k = share * local.stiffness.template block<3, 3>(3 * a, 3 * b);
-      if (a >= half) k = turn.transpose() * k;
-      if (b >= half) k = k * turn;
-      auto& to = (a < half) == (b < half) ? sum.here : sum.next;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-          to.emplace_back(static_cast<int>(node(a)) + i, static_cast<int>(node(b)) + j, k(i, j));
+/// Of a quadrilateral: its corners on the first side, then those on the second.
+std::array<Corner, 8> corners_of(const SweptQuad& quad) noexcept {
+  std::array<Corner, 8> corners;
+  for (std::size_t a = 0; a < 8; ++a) corners[a] = {quad.corner[a % 4], a >= 4};
+  return corners;
+}
+/// Of a line, in the order of FaceCorners.
+std::array<Corner, 4> corners_of(const std::array<int, 2>& line) noexcept {
+  return {Corner{line[0], false}, {line[1], false}, {line[1], true}, {line[0], true}};
+}
+
+/// Vectors of the section's nodes at the corners, in the frame of this sector.
+template <std::size_t N>
+std::array<Vec3, N> at_corners(const std::array<Corner, N>& corners, std::span<const Vec3> x,
+                               Complex turn) noexcept {
+  std::array<Vec3, N> v;
+  for (std::size_t a = 0; a < N; ++a)
+    v[a] = corners[a].next ? turn * x[at(corners[a].node)] : x[at(corners[a].node)];
+  return v;
+}
+
+/// Forces and blocks of a sector as its elements add to them.
+struct Sum {
+  Eigen::VectorXd force;
+  std::vector<Eigen::Triplet<double>> here, next;
+  Eigen::Matrix3d turn;  ///< R: from the frame of the next sector to this one's
+
+  /// The forces on the second side of the sector before act on this one's first side.
+  template <std::size_t N>
+  void add(const Energy<static_cast<int>(N)>& local, const std::array<Corner, N>& corners,
+           double share) {
+    for (std::size_t a = 0; a < N; ++a) {
+      const Index row = Index{3} * corners[a].node;
+      const auto from = static_cast<Index>(3 * a);
+      const Eigen::Vector3d f = share * local.force.template segment<3>(from);
+      force.segment<3>(row) += corners[a].next ? Eigen::Vector3d(turn.transpose() * f) : f;
+      for (std::size_t b = 0; b < N; ++b) {
+        if (corners[a].next && !corners[b].next) continue;  // the transpose of `next`
+        Eigen::Matrix3d k =
+            share * local.stiffness.template block<3, 3>(from, static_cast<Index>(3 * b));
+        if (corners[a].next) k = turn.transpose() * k;
+        if (corners[b].next) k = k * turn;
+        add_block(corners[a].next == corners[b].next ? here : next, row, Index{3} * corners[b].node,
+                  k);
+      }
     }
   }
-}
+  static void add_block(std::vector<Eigen::Triplet<double>>& to, Index row, Index column,
+                        const Eigen::Matrix3d& k) {
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        to.emplace_back(static_cast<int>(row) + i, static_cast<int>(column) + j, k(i, j));
+  }
+};
+
+}  // namespace
 
 SectorEnergy::SectorEnergy(SweptSection section)
     : section_(std::move(section)), turn_(rotation(2.0 * std::numbers::pi / section_.n_sectors)) {
   RONDO_DEMAND(section_.n_sectors >= 3 && section_.held.size() == 3 * section_.place.size(),
                section_.n_sectors, section_.held.size(), section_.place.size());
   check();
-  std::vector<Vec3> x;
-  for (const Vec2 p : section_.place) x.push_back(in_sector(p));
+  for (const Vec2 p : section_.place) reference_.push_back({p.x, 0.0, p.y});
   for (SweptQuad& quad : section_.quads) {
-    const auto corners = swept(quad.corner, x, turn_);
-    if (smallest_jacobian(corners) < 0.0) std::swap(quad.corner[1], quad.corner[3]);
-    RONDO_DEMAND(smallest_jacobian(swept(quad.corner, x, turn_)) > 0.0, quad.corner[0]);
-    points_.push_back(hexahedron_points(swept(quad.corner, x, turn_)));
+    const auto swept = [&] { return at_corners(corners_of(quad), reference_, turn_); };
+    if (smallest_jacobian(swept()) < 0.0) std::swap(quad.corner[1], quad.corner[3]);
+    RONDO_DEMAND(smallest_jacobian(swept()) > 0.0, quad.corner[0]);
+    points_.push_back(hexahedron_points(swept()));
   }
   for (auto& edge : section_.liner) edge = outwards(edge);
-  for (const Cords& cords : section_.cords) {
-    Layer& layer = layers_.emplace_back();
-    for (const auto& line : cords.lines) {
-      const FaceCorners face = face_of(line, x, turn_);
-      std::array<double, 4> angle{}, spacing{};
-      const std::array<Vec3, 4> places = face_points(face);
-      for (std::size_t q = 0; q < 4; ++q) {
-        angle[q] = cords.angle;
-        spacing[q] = cords.spacing;
-        if (cords.spacing_radius)
-          spacing[q] *= std::hypot(places[q].x, places[q].y) / *cords.spacing_radius;
-      }
-      layer.reference.push_back(face);
-      layer.points.push_back(cord_points(face, angle, spacing));
-    }
-  }
+  for (const Cords& cords : section_.cords) layers_.push_back(points_of(cords));
   make_mass();
+}
+
+/// The points of a layer, four of each line.
+std::vector<std::array<CordPoint, 4>> SectorEnergy::points_of(const Cords& cords) const {
+  std::vector<std::array<CordPoint, 4>> points;
+  for (const auto& line : cords.lines) {
+    const FaceCorners face = at_corners(corners_of(line), reference_, turn_);
+    std::array<double, 4> angle{}, spacing{};
+    for (std::size_t q = 0; q < 4; ++q) {
+      angle[q] = cords.angle;
+      spacing[q] = cords.spacing;
+      if (cords.spacing_radius)
+        spacing[q] *= norm(face_point(face, q).place.plane()) / *cords.spacing_radius;
+    }
+    points.push_back(cord_points(face, angle, spacing));
+  }
+  return points;
 }
 
 /// What the types do not say of a section.
@@ -172,59 +162,67 @@ std::array<int, 2> SectorEnergy::outwards(std::array<int, 2> edge) const {
 }
 
 void SectorEnergy::make_mass() {
-  std::vector<Vec3> x;
-  for (const Vec2 p : section_.place) x.push_back(in_sector(p));
   mass_.assign(n_nodes(), 0.0);
   for (const SweptQuad& quad : section_.quads) {
-    const std::array<double, 8> volumes = hexahedron_volumes(swept(quad.corner, x, turn_));
+    const std::array<double, 8> volumes =
+        hexahedron_volumes(at_corners(corners_of(quad), reference_, turn_));
     for (std::size_t a = 0; a < 8; ++a)
       mass_[at(quad.corner[a % 4])] += section_.densities[at(quad.rubber)] * volumes[a];
   }
   for (std::size_t l = 0; l < layers_.size(); ++l)
-    for (std::size_t e = 0; e < layers_[l].points.size(); ++e)
-      for (const CordPoint& p : layers_[l].points[e])
+    for (std::size_t e = 0; e < layers_[l].size(); ++e)
+      for (const CordPoint& p : layers_[l][e])
         for (const int node : section_.cords[l].lines[e])
           mass_[at(node)] += 0.5 * p.length * section_.cords[l].excess_mass;
 }
 
-SectorState SectorEnergy::state(std::span<const Vec3> u, const SectorLoads& loads,
-                                bool with_stiffness) const {
+/// (n) Places of the nodes of the section.
+std::vector<Vec3> SectorEnergy::places(std::span<const Vec3> u) const {
   RONDO_DEMAND(u.size() == n_nodes(), u.size(), n_nodes());
+  std::vector<Vec3> x = reference_;
+  for (std::size_t a = 0; a < u.size(); ++a) x[a] += u[a];
+  return x;
+}
+
+SectorState SectorEnergy::state(std::span<const Vec3> u, const SectorLoads& loads) const {
+  const std::vector<Vec3> x = places(u);
+  const auto size = static_cast<Index>(3 * n_nodes());
+  Sum sum{Eigen::VectorXd::Zero(size), {}, {}, {}};
+  sum.turn << turn_.re, -turn_.im, 0.0, turn_.im, turn_.re, 0.0, 0.0, 0.0, 1.0;
   SectorState out;
-  Sum sum(n_nodes(), with_stiffness);
   out.least = 1e300;
   for (std::size_t e = 0; e < section_.quads.size(); ++e) {
-    const SweptQuad& quad = section_.quads[e];
-    const RubberEnergy local = rubber_hexahedron(points_[e], swept(quad.corner, u, turn_),
-                                                 section_.rubbers[at(quad.rubber)]);
-    if (local.least < out.least) {
+    const auto corners = corners_of(section_.quads[e]);
+    const RubberEnergy local = rubber_hexahedron(points_[e], at_corners(corners, u, turn_),
+                                                 section_.rubbers[at(section_.quads[e].rubber)]);
+    if (!(local.least >= out.least)) {
       out.least = local.least;
       out.of_quad = e;
     }
     if (!(local.least > 0.0)) return out;
     out.energy += local.value;
-    add<8>(local, quad.corner, 1.0, sum);
+    sum.add(local, corners, 1.0);
   }
-  std::vector<Vec3> x;
-  for (std::size_t a = 0; a < u.size(); ++a) x.push_back(in_sector(section_.place[a]) + u[a]);
   for (std::size_t l = 0; l < layers_.size(); ++l)
-    for (std::size_t e = 0; e < layers_[l].points.size(); ++e) {
-      const auto& line = section_.cords[l].lines[e];
+    for (std::size_t e = 0; e < layers_[l].size(); ++e) {
+      const auto corners = corners_of(section_.cords[l].lines[e]);
       const Energy<4> local =
-          cord_face(layers_[l].points[e], face_of(line, x, turn_), section_.cords[l].law);
+          cord_face(layers_[l][e], at_corners(corners, x, turn_), section_.cords[l].law);
       out.energy += local.value;
-      add<4>(by_sides(local), line, 1.0, sum);
+      sum.add(local, corners, 1.0);
     }
   const Eigen::VectorXd inner = sum.force;
   for (const auto& edge : section_.liner) {
-    const Energy<4> local = cone_volume(face_of(edge, x, turn_));
+    const Energy<4> local = cone_volume(at_corners(corners_of(edge), x, turn_));
     out.volume += local.value;
-    add<4>(by_sides(local), edge, -loads.pressure, sum);
+    sum.add(local, corners_of(edge), -loads.pressure);
   }
   for (const Cap& cap : section_.caps) {
-    const Energy<2> local = cap_volume(x[at(cap.node)], turn_ * x[at(cap.node)], cap.outward);
+    const std::array<Corner, 2> corners{Corner{cap.node, false}, {cap.node, true}};
+    const auto [here, next] = at_corners(corners, x, turn_);
+    const Energy<2> local = cap_volume(here, next, cap.outward);
     out.volume += local.value;
-    add<2>(local, std::array<int, 1>{cap.node}, -loads.pressure, sum);
+    sum.add(local, corners, -loads.pressure);
   }
   for (std::size_t a = 0; a < u.size(); ++a) {
     const double pull = loads.spin_squared * mass_[a];
@@ -232,8 +230,6 @@ SectorState SectorEnergy::state(std::span<const Vec3> u, const SectorLoads& load
   }
   out.load = (sum.force - inner).cwiseAbs().maxCoeff();
   out.force = std::move(sum.force);
-  if (!with_stiffness) return out;
-  const auto size = static_cast<Index>(3 * n_nodes());
   out.here.resize(size, size);
   out.next.resize(size, size);
   out.here.setFromTriplets(sum.here.begin(), sum.here.end());
@@ -243,22 +239,19 @@ SectorState SectorEnergy::state(std::span<const Vec3> u, const SectorLoads& load
 
 std::vector<SectorEnergy::CordPlace> SectorEnergy::cords(std::size_t layer,
                                                          std::span<const Vec3> u) const {
-  std::vector<Vec3> x;
-  for (std::size_t a = 0; a < u.size(); ++a) x.push_back(in_sector(section_.place[a]) + u[a]);
-  const Cords& cords = section_.cords[layer];
+  const std::vector<Vec3> x = places(u);
+  const Cords& cords = section_.cords.at(layer);
   std::vector<CordPlace> out;
   for (std::size_t e = 0; e < cords.lines.size(); ++e) {
-    const FaceCorners face = face_of(cords.lines[e], x, turn_);
-    const std::array<Vec3, 4> before = face_points(layers_[layer].reference[e]),
-                              now = face_points(face);
+    const FaceCorners face = at_corners(corners_of(cords.lines[e]), x, turn_);
     for (std::size_t q = 0; q < 4; ++q) {
-      CordPlace p{before[q], now[q], cords.angle, 0.0,
-                  cord_state(layers_[layer].points[e][q], face, cords.law)};
       const FacePoint here = face_point(face, q);
+      const CordState state = cord_state(layers_[layer][e][q], face, cords.law);
       const Vec3 around = here.across / norm(here.across),
                  rest = here.along - dot(here.along, around) * around;
-      p.angle_now = std::atan2(dot(p.state.along, rest) / norm(rest), dot(p.state.along, around));
-      out.push_back(p);
+      const double angle =
+          std::atan2(dot(state.along, rest) / norm(rest), dot(state.along, around));
+      out.push_back({here.place, angle, state});
     }
   }
   return out;

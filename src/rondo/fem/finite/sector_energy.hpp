@@ -19,9 +19,9 @@ struct SectorLoads {
   double spin_squared = 0.0;  ///< s² about the axle [1/s²]
 };
 
-/// Of a sector. A node of the section stands for the nodes of the sector's first side, and the
-/// second side is the first of the next sector, turned by R. Component c of node a is number 3a +
-/// c; components in the sector's frame: outwards, around, along the axle.
+/// State of one sector. Its first side has the nodes of the section; its second side has those of
+/// the next sector, turned by R. Component c of node a is number 3a + c; components in the frame of
+/// the sector: outwards, around, along the axle.
 struct SectorState {
   double energy = 0.0;      ///< of rubber and cords                                        [J]
   double volume = 0.0;      ///< of the cones from the origin, and caps: what is enclosed where
@@ -49,34 +49,28 @@ class SectorEnergy {
   /// (n) lumped in the undeformed state, of one sector [kg]
   [[nodiscard]] std::span<const double> mass() const noexcept { return mass_; }
   /// @param u (n) displacements [m]
-  [[nodiscard]] SectorState state(std::span<const Vec3> u, const SectorLoads& loads,
-                                  bool with_stiffness) const;
+  [[nodiscard]] SectorState state(std::span<const Vec3> u, const SectorLoads& loads) const;
 
-  /// Stretch and force of the cords at the points of a layer.
+  /// The cords at a point of a layer, deformed.
   struct CordPlace {
-    Vec3 reference, place;                ///< [m]
-    double angle = 0.0, angle_now = 0.0;  ///< from the direction around [rad]
+    Vec3 place;          ///< [m]
+    double angle = 0.0;  ///< from the direction around [rad]
     CordState state;
   };
   [[nodiscard]] std::vector<CordPlace> cords(std::size_t layer, std::span<const Vec3> u) const;
 
  private:
-  struct Layer {
-    std::vector<FaceCorners> reference;
-    std::vector<std::array<CordPoint, 4>> points;
-  };
-  class Sum;
   [[nodiscard]] std::array<int, 2> outwards(std::array<int, 2> edge) const;
   void check() const;
   void make_mass();
-  template <int Corners, class Local>
-  void add(const Local& local, const std::array<int, Corners / 2>& nodes, double share,
-           Sum& sum) const;
+  [[nodiscard]] std::vector<std::array<CordPoint, 4>> points_of(const Cords& cords) const;
+  [[nodiscard]] std::vector<Vec3> places(std::span<const Vec3> u) const;
 
   SweptSection section_;
-  Complex turn_;  ///< R, by the angle of a sector
+  Complex turn_;                 ///< R, by the angle of a sector
+  std::vector<Vec3> reference_;  ///< (n) X [m]
   std::vector<HexahedronPoints> points_;
-  std::vector<Layer> layers_;
+  std::vector<std::vector<std::array<CordPoint, 4>>> layers_;  ///< (lines, 4) of each
   std::vector<double> mass_;
 };
 

@@ -88,11 +88,33 @@ class Step {
 
   /// Number of turns; 0: it did not converge.
   int go_to(double share, Inflation& out) {
-    out.has_inverted = false;
+    out.inverted.reset();
     const SectorLoads now{share * loads_.sector.pressure, share * loads_.sector.spin_squared};
     std::vector<Vec3> u = out.u;
-    SectorState state = wheel_.state(u, now, true);
-    // Held nodes go to their places, and the others as the tangent says.
+    SectorState state = wheel_.state(u, now);
+    Eigen::VectorXd given = mounted(share, u);  // and the others go as the tangent says
+    for (int turn = 1; turn <= most_turns; ++turn) {
+      if (!move(state, now.spin_squared, given, u)) return 0;
+      given.setZero();
+      state = wheel_.state(u, now);
+      if (!(state.least > 0.0)) {
+        out.inverted = state.of_quad;
+        return 0;
+      }
+      if (!state.force.allFinite()) return 0;
+      const double residual = lack(state);
+      if (!(residual <= solved)) continue;
+      out.u = std::move(u);
+      out.state = std::move(state);
+      out.residual = residual;
+      return turn;
+    }
+    return 0;
+  }
+
+ private:
+  /// (3n) What is left of the ways of held nodes to their places.
+  Eigen::VectorXd mounted(double share, std::span<const Vec3> u) const {
     Eigen::VectorXd given = Eigen::VectorXd::Zero(static_cast<Index>(3 * u.size()));
     for (std::size_t a = 0; a < u.size() && !loads_.mounting.empty(); ++a) {
       const Vec3 step = share * loads_.mounting[a] - u[a];
@@ -100,27 +122,8 @@ class Step {
     }
     for (std::size_t i = 0; i < rows_.size(); ++i)
       if (rows_[i] >= 0) given[static_cast<Index>(i)] = 0.0;
-    for (int turn = 1; turn <= most_turns; ++turn) {
-      if (!move(state, now.spin_squared, given, u)) return 0;
-      given.setZero();
-      state = wheel_.state(u, now, true);
-      if (!(state.least > 0.0) || !state.force.allFinite()) {
-        out.inverted = state.of_quad;
-        out.has_inverted = true;
-        return 0;
-      }
-      const double residual = lack(state);
-      if (!(residual <= solved)) continue;
-      out.u = std::move(u);
-      out.state = std::move(state);
-      out.residual = residual;
-      out.has_inverted = false;
-      return turn;
-    }
-    return 0;
+    return given;
   }
-
- private:
   bool move(const SectorState& state, double spin_squared, const Eigen::VectorXd& given,
             std::vector<Vec3>& u) {
     Eigen::VectorXd pull =

@@ -17,14 +17,13 @@ struct InflationLoads {
 };
 
 struct Inflation {
-  bool found = false;         ///< also where it is not stable: see unstable_harmonic()
-  double share = 0.0;         ///< of the loads that has an equilibrium; 1: all
-  std::vector<Vec3> u;        ///< (n) at that share [m]
-  std::vector<int> turns;     ///< of Newton's method in each step
-  double residual = 0.0;      ///< largest force at a free node, over the largest reaction or load
-  std::size_t inverted = 0;   ///< quadrilateral that turned inside out in the last attempt, if
-  bool has_inverted = false;  ///< one did
-  fem::finite::SectorState state;  ///< with stiffness
+  bool found = false;      ///< also where it is not stable: see unstable_harmonic()
+  double share = 0.0;      ///< of the loads that has an equilibrium; 1: all
+  std::vector<Vec3> u;     ///< (n) at that share [m]
+  std::vector<int> turns;  ///< of Newton's method in each step
+  double residual = 0.0;   ///< largest force at a free node, over the largest reaction or load
+  std::optional<std::size_t> inverted;  ///< quadrilateral inside out at the end of the last attempt
+  fem::finite::SectorState state;       ///< at that share
 };
 
 [[nodiscard]] Inflation inflate(const fem::finite::SectorEnergy& wheel,
@@ -32,7 +31,8 @@ struct Inflation {
 
 /// The lowest harmonic around the wheel in which the equilibrium is not stable, as seen by who
 /// turns with it: K(k) - s² M P is not positive definite to round-off. A wheel that nothing holds
-/// against a rigid motion is not. @param state with stiffness, of this spin
+/// against a rigid motion is not. @param state in which no quadrilateral is
+/// inverted, of this spin
 [[nodiscard]] std::optional<int> unstable_harmonic(const fem::finite::SectorEnergy& wheel,
                                                    const fem::finite::SectorState& state,
                                                    double spin_squared);
