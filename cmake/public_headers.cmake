@@ -13,7 +13,7 @@ set(RONDO_PUBLIC_HEADERS
     integrators/integrator.hpp integrators/start.hpp)
 set(RONDO_INCLUDED_HEADERS
     core/complex.hpp core/contract.hpp core/field.hpp core/ground_frame.hpp core/index.hpp core/sum.hpp core/vec2.hpp core/vec3.hpp
-    case/analysis_kinds.hpp analysis/build/bodies.hpp io/h5/h5.hpp io/h5/hash.hpp
+    case/analysis_kinds.hpp case/inflation_case.hpp case/inflation_figures.hpp analysis/build/bodies.hpp io/h5/h5.hpp io/h5/hash.hpp
     fem/element.hpp fem/nodal_dilatation.hpp fem/rubber.hpp
     fem/hyperelastic/numbers.hpp fem/hyperelastic/laws.hpp fem/hyperelastic/branch.hpp
     fem/hyperelastic/element.hpp fem/hyperelastic/stress.hpp modal/critical_speeds.hpp modal/modes.hpp

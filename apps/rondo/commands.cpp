@@ -19,6 +19,16 @@
 namespace rondo::app {
 namespace {
 
+void tell_balance(const study::RunReport& r) {
+  spdlog::info(
+      "energy balance closes to {:.1e} (bound {:.0e}), contact law to {:.1e}, largest penetration "
+      "{:.2g} m",
+      r.energy_residual_relative, r.energy_residual_bound, r.contact_residual_max,
+      r.penetration_max_m);
+  spdlog::info("largest strain {:.2g}, smallest J of an element {:.2g}", r.strain_max,
+               r.jacobian_min);
+}
+
 int finish(const study::RunReport& r, const std::filesystem::path& directory, Telling& tell) {
   for (const std::string& warning : r.warnings) spdlog::warn(warning);
   switch (r.status) {
@@ -44,13 +54,7 @@ int finish(const study::RunReport& r, const std::filesystem::path& directory, Te
   else
     spdlog::info("{} in {:.2f} s ({:.1f} ns per dof and step)", r.reached, r.loop_wall_s,
                  r.ns_per_dof_step);
-  spdlog::info(
-      "energy balance closes to {:.1e} (bound {:.0e}), contact law to {:.1e}, largest penetration "
-      "{:.2g} m",
-      r.energy_residual_relative, r.energy_residual_bound, r.contact_residual_max,
-      r.penetration_max_m);
-  spdlog::info("largest strain {:.2g}, smallest J of an element {:.2g}", r.strain_max,
-               r.jacobian_min);
+  if (r.energy_residual_bound > 0.0) tell_balance(r);
   for (const std::string& note : r.notes) spdlog::info(note);
   spdlog::info("{} snapshots in {}", r.snapshots, directory.string());
   return exit_done;

@@ -146,7 +146,7 @@ void read_one(const fs::path& file, Tally& tally, std::mutex& guard) {
   std::size_t mesh = 0, ended = 0;
   try {
     const mesh::MeshRequest request{
-        .file = file, .clamped = "foot", .contact = "top", .curves = {}, .surfaces = {"left"}};
+        .file = file, .clamped = {"foot"}, .contact = "top", .curves = {}, .surfaces = {"left"}};
     wrong = fault_of(mesh::read_gmsh(request).mesh);
     mesh = 1;
   } catch (const InputError& error) {

@@ -48,8 +48,8 @@ ALLOWED["io"] = set(ALLOWED) - {"case"}
 STEPS = {"model", "integrators", "integrators/massless", "integrators/fused"}
 ALLOWED["output"] = SOLIDS | STEPS | {"case", "io"}
 ALLOWED["analysis/elements"] = SOLIDS | {"model", "integrators/massless", "case"}
-ALLOWED["analysis/build"] = SOLIDS | STEPS | {"statics", "statics/steady", "case", "output",
-                                              "analysis/elements"}
+ALLOWED["analysis/build"] = SOLIDS | STEPS | {"statics", "statics/inflation", "statics/steady", "case",
+                                              "output", "analysis/elements"}
 ALLOWED["analysis/figures"] = {"core", "io", "output"}
 ALLOWED["analysis/base"] = SOLIDS | {"model", "case", "io", "output"}
 ALLOWED["analysis/steady"] = (ALLOWED["analysis/build"] | ALLOWED["analysis/base"] |

@@ -4,6 +4,7 @@
 #include "rondo/analysis/base/shared_members.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
+#include "rondo/analysis/build/tyre/inflation_members.hpp"
 #include "rondo/analysis/elements/massless_boundary.hpp"
 #include "rondo/case/case_source.hpp"
 
@@ -151,6 +152,7 @@ void describe_dynamic(const Case& c, const Setup& s, Json& json) {
   add_size(s.model.n_nodes(), count_dofs(s.model), json);
   add_members(file_of_mesh_members, {c, s}, json);
   if (s.model.solid) add_wheel(width_of(s.mesh), s.mesh.n_sectors, s.model.motion.camber, json);
+  if (s.inflation) add_inflation(*s.inflation, json);
   add_members(built_members, {c, s}, json);
 }
 

@@ -10,7 +10,9 @@
 #include "rondo/analysis/dynamic.hpp"
 #include "rondo/analysis/figures/crush_figures.hpp"
 #include "rondo/analysis/figures/dynamic_figures.hpp"
+#include "rondo/analysis/figures/inflation_figures.hpp"
 #include "rondo/analysis/figures/steady_figures.hpp"
+#include "rondo/analysis/inflation/inflation.hpp"
 #include "rondo/analysis/reduced/wheel.hpp"
 #include "rondo/analysis/steady/steady.hpp"
 
@@ -38,6 +40,7 @@ std::span<const AnalysisType> analysis_types() noexcept {
                    solve_steady_rolling},
       AnalysisType{steady_rolling, nullptr, "place", make_steady_rolling, steady_figures(),
                    solve_steady_rolling},
+      AnalysisType{inflation, nullptr, "step", make_inflation, inflation_figures()},
   };
   return types;
 }

@@ -11,10 +11,11 @@ namespace rondo::study {
 struct Case;
 class CaseValues;
 
-enum class AnalysisKind { dynamic, crush, steady_rolling };
+enum class AnalysisKind { dynamic, crush, steady_rolling, inflation };
 
 void check_crush(CaseValues& in, Case& c);
 void check_steady_rolling(CaseValues& in, Case& c);
+void check_inflation_alone(CaseValues& in, Case& c);
 
 struct KindOfCase {
   std::string_view name;
@@ -28,6 +29,8 @@ inline constexpr KindOfCase analysis_kinds[] = {
     {"dynamic", nullptr, "", true},
     {"crush", check_crush, "a crush is quasi-static, its ground flat", false, "analysis.depth"},
     {"steady-rolling", check_steady_rolling, "steady rolling has no start, no end and no impacts"},
+    {"inflation", check_inflation_alone, "an inflation is an equilibrium off the ground", false,
+     "motion.height"},
 };
 
 constexpr const KindOfCase& rules_of(AnalysisKind kind) noexcept {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "rondo/case/analysis_kinds.hpp"
+#include "rondo/case/inflation_case.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/contact/law.hpp"
 #include "rondo/core/error.hpp"
@@ -27,10 +28,10 @@ struct Damping {
 
 /// A Gmsh file instead of a generated disk; all names are those of physical groups.
 struct MeshCase {
-  std::filesystem::path file;  ///< absolute, or relative to the working directory
-  double scale = 1.0;          ///< m per unit of length of the file
-  std::string clamped;         ///< physical curve that is clamped; empty: none
-  std::string contact;         ///< physical curve of candidates; empty: none
+  std::filesystem::path file;        ///< absolute, or relative to the working directory
+  double scale = 1.0;                ///< m per unit of length of the file
+  std::vector<std::string> clamped;  ///< physical curves that are clamped
+  std::string contact;               ///< physical curve of candidates; empty: none
 };
 
 /// The keys that make a generated disk a wheel in three dimensions (docs/wheel3d.md).
@@ -213,6 +214,8 @@ struct Case {
   MaterialLaw law;  ///< of the material
   std::vector<MaterialRegion> regions;
   StressStiffening stress_stiffening = StressStiffening::none;
+  std::vector<CordsCase> cords;
+  std::optional<InflationCase> inflation;  ///< absent: no finite strain at rest
   std::vector<PressureCase> pressures;
   Damping damping;
   dynamics::Motion motion;
@@ -242,6 +245,11 @@ inline bool is_solid(const Case& c) {
   return c.wheel.width.has_value() || c.section.has_value();
 }
 
+/// Spin of the state about which an inflated wheel moves. @pre it is inflated            [rad/s]
+inline double spin_at_rest(const Case& c) {
+  return c.inflation->spin ? *c.inflation->spin : c.motion.angular_velocity.at(0.0);
+}
+
 /// Whether the body is a [disk], in the plane or with a width.
 inline bool is_generated(const Case& c) {
   return !c.mesh && !c.section;
@@ -260,8 +268,14 @@ inline bool may_be_free(const Case& c) {
   return c.mesh.has_value() || c.free_rim;
 }
 
-/// Whether some part of the body is rubber at finite strain.
-bool has_rubber(const Case& c) noexcept;
+/// Whether some part of the body has a law of rubber.
+bool has_rubber_law(const Case& c) noexcept;
+
+/// Whether some part of the body is rubber that moves at finite strain: not in a wheel that is
+/// linear about its inflated state.
+inline bool has_rubber(const Case& c) noexcept {
+  return !c.inflation && has_rubber_law(c);
+}
 
 /// Reads and validates. `settings` are the "a.b=value" of --set, applied before validation; a value
 /// that is not TOML is taken as a string. @throws InputError with every fault, in the file's order.

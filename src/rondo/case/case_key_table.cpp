@@ -16,6 +16,7 @@ constexpr Allowed poisson{{-1.0, 0.5, true, true}};
 constexpr Allowed share{{0.0, 1.0, true, false}};
 constexpr double right_angle = 0.5 * std::numbers::pi;
 constexpr Allowed less_than_upright{{-right_angle, right_angle, true, true}};
+constexpr Allowed of_cords{{-1.5708, 1.5708, false, false}};
 constexpr Allowed slanted{{-0.78, 0.78, false, false}};  ///< up to about 45°
 
 constexpr Allowed between(double low, double high) {
@@ -65,7 +66,7 @@ bool region_is_rubber(const Case& c, std::size_t k) {
 }
 /// If all materials are linear, the integration of [material] applies to all.
 bool region_has_integration(const Case& c, std::size_t k) {
-  return has_rubber(c) || c.regions[k].law.integration != c.law.integration;
+  return has_rubber_law(c) || c.regions[k].law.integration != c.law.integration;
 }
 
 bool has_surfaces(const Case& c) {
@@ -123,6 +124,9 @@ bool has_slide_increments(const Case& c) {
 }
 bool has_slide(const Case& c) {
   return has_slide_increments(c) || c.analysis.slide.points().size() > 1;
+}
+bool has_rest_spin(const Case& c) {
+  return c.inflation && c.inflation->spin;
 }
 bool is_latin(const Case& c) {
   return c.analysis.solver != CrushMethod::direct;
@@ -207,8 +211,8 @@ constexpr CaseKey keys[] = {
     {"mesh.scale", "m", FIELD(mesh->scale), positive, optional,
      "Length in metres of one unit of length of the file"},
     {"mesh.clamped", "-", FIELD(mesh->clamped), any, optional,
-     "Physical curve whose nodes are constrained in the co-rotating frame (u = 0); \"\": none, all "
-     "bodies are free"},
+     "Physical curve, or several, whose nodes are constrained in the co-rotating frame (u = 0); "
+     "\"\": none, all bodies are free"},
     {"mesh.contact", "-", FIELD(mesh->contact), any, optional,
      "Physical curve whose nodes may touch the ground or other bodies; \"\": none"},
 
@@ -219,13 +223,13 @@ constexpr CaseKey keys[] = {
     {"section.scale", "m", FIELD(section->mesh.scale), positive, optional,
      "Length in metres of one unit of length of the file"},
     {"section.clamped", "-", FIELD(section->mesh.clamped), any, required,
-     "Physical curve that is bonded to the rigid rim"},
+     "Physical curve that is bonded to the rigid rim, or several: the beads of a tyre"},
     {"section.contact", "-", FIELD(section->mesh.contact), any, optional,
      "Physical curve whose nodes may touch the ground; \"\": none"},
     {"section.sectors", "-", FIELD(section->sectors), between(3, 10000000), optional,
      "Number of columns of hexahedra around the wheel, all of the same angle"},
 
-    {"material.model", "-", FIELD(law.model), model, optional.if_(has_rubber, "\"linear\""),
+    {"material.model", "-", FIELD(law.model), model, optional.if_(has_rubber_law, "\"linear\""),
      "\"linear\": isotropic elasticity for small strains. The other laws are [rubber](#rubber) at "
      "finite strain"},
     {"material.youngs_modulus", "Pa", FIELD(material.youngs_modulus), positive,
@@ -289,7 +293,7 @@ constexpr CaseKey keys[] = {
      "Layers of elements of the disk that have this material, counted from 1 at the rim on through "
      "the tread"},
     {"material.region[].model", "-", FIELD(regions[k].law.model), model,
-     of_region.if_(has_rubber, of_region.standard),
+     of_region.if_(has_rubber_law, of_region.standard),
      "Law of the region. If it is not that of [material], only the density is taken from there"},
     {"material.region[].youngs_modulus", "Pa", FIELD(regions[k].material.youngs_modulus), positive,
      of_region.if_item(region_is_of<linear>, of_region.standard), "Young's modulus of the region"},
@@ -327,6 +331,62 @@ constexpr CaseKey keys[] = {
      "Branches [[relative_modulus, time], ...] of the region's rubber, as in "
      "[[material.viscosity]]; []: none"},
 
+    {"cords[].curve", "-", FIELD(cords[k].curve), any, required,
+     "Physical curve of the section along which the cords lie, on edges of elements; \"layer-K\" "
+     "of a `[disk]`: the line between its layers K and K + 1"},
+    {"cords[].angle", "rad", FIELD(cords[k].angle), with(of_cords, "in rad: 22° is 0.384"),
+     required,
+     "Angle of the cords, from the direction around the wheel, in the sense of growing angles, "
+     "towards the direction of the curve, which goes from its end of smaller z to that of larger. "
+     "0: around, a cap or bead; 1.5708: radial, a carcass"},
+    {"cords[].stiffness", "N", FIELD(cords[k].stiffness), positive,
+     optional.said("by youngs_modulus and area"),
+     "Stiffness EA of a cord: force over nominal strain"},
+    {"cords[].youngs_modulus", "Pa", FIELD(cords[k].youngs_modulus), positive,
+     optional.said("by stiffness"), "Young's modulus of a cord, beside `area`"},
+    {"cords[].area", "m2", FIELD(cords[k].area), positive, optional.said("none"),
+     "Cross-section of a cord"},
+    {"cords[].spacing", "m", FIELD(cords[k].spacing), positive, required,
+     "Distance between cords, across them"},
+    {"cords[].spacing_radius", "m", FIELD(cords[k].spacing_radius), positive,
+     optional.said("the same everywhere"),
+     "Radius at which `spacing` holds; elsewhere it is in proportion to the radius, so that the "
+     "number of cords around is constant"},
+    {"cords[].density", "kg/m3", FIELD(cords[k].density), positive, optional.said("by excess_mass"),
+     "Density of a cord, beside `area`; the cord takes the place of rubber of the mean density on "
+     "both sides"},
+    {"cords[].excess_mass", "kg/m", FIELD(cords[k].excess_mass), any,
+     optional.said("0 without density"),
+     "Mass of a metre of cord less that of the rubber in its place"},
+    {"cords[].prestrain", "-", FIELD(cords[k].prestrain), between(-0.1, 0.1), optional,
+     "Strain of the cords in the undeformed section"},
+    {"cords[].compression", "-", FIELD(cords[k].compression), share, optional,
+     "Share of the stiffness that resists compression"},
+    {"cords[].green_radius", "m", FIELD(cords[k].green_radius), positive,
+     optional.said("none: as in the mould"),
+     "Radius of the drum on which `angle` and `spacing` are measured before the tyre is lifted "
+     "into "
+     "its mould: the cosine of the angle grows with the radius, and the number of cords stays"},
+    {"cords[].green_extension", "-", FIELD(cords[k].green_extension), between(-0.5, 1.0), optional,
+     "Strain of the cords from the drum to the mould, beside `green_radius`"},
+
+    {"inflation.curve", "-", FIELD(inflation->curve), any, optional.said("\"\": no air"),
+     "Physical curve of the section on which the air presses, the liner; its ends are on "
+     "`section.clamped`"},
+    {"inflation.pressure", "Pa", FIELD(inflation->pressure), not_negative, optional,
+     "Pressure of the air above that outside. It follows the wall"},
+    {"inflation.spin", "rad/s", FIELD(inflation->spin), any,
+     optional.if_(has_rest_spin, "motion.angular_velocity at t = 0"),
+     "Spin at which the wheel is in equilibrium; motions and modes are linear about this state"},
+    {"inflation.steps", "-", FIELD(inflation->steps), between(1, 1000), optional,
+     "Number of steps in which pressure, spin and mounting grow together"},
+    {"inflation.mounting[].curve", "-", FIELD(inflation->mounting[k].curve), any, required,
+     "Physical curve of `section.clamped` that is moved when the wheel is mounted on its rim"},
+    {"inflation.mounting[].radial", "m", FIELD(inflation->mounting[k].radial), any, optional,
+     "Its way outwards"},
+    {"inflation.mounting[].axial", "m", FIELD(inflation->mounting[k].axial), any, optional,
+     "Its way along the axle, towards +z"},
+
     {"damping.mass", "1/s", FIELD(damping.mass), not_negative, optional.body(is_lagged),
      "Coefficient α of mass damping. It damps a mode of angular frequency w at the ratio α/(2w), "
      "slow motions most; it also brakes flight and spin of a free body"},
@@ -335,29 +395,35 @@ constexpr CaseKey keys[] = {
      "w/2, short waves most. It lowers the critical step"},
 
     {"motion.angular_velocity", "rad/s", FIELD(motion.angular_velocity), any,
-     required.if_(is_held, "required if constrained and dynamic").body(never),
+     required.if_(is_held, "required if constrained and dynamic").only_in(in_motion).body(never),
      "Angular velocity ω of the rim; > 0 turns clockwise, which rolls towards +x. All angular "
      "velocities and angles of turns of a case, and `angle_rad` of history.csv, have this sign"},
     {"motion.speed", "m/s", FIELD(motion.speed), any,
-     required.if_(has_speed, "required if constrained and dynamic").only_in(in_time).body(never),
+     required.if_(has_speed, "required if constrained and dynamic")
+         .only_in(in_time)
+         .of(in_motion)
+         .body(never),
      "Speed V of the center along x"},
     {"motion.height", "m", FIELD(motion.height), any,
-     required.if_(has_height, "required if constrained and dynamic").only_in(in_time).body(never),
+     required.if_(has_height, "required if constrained and dynamic")
+         .only_in(in_time)
+         .of(in_motion)
+         .body(never),
      "Height h of the center above y = 0"},
-    {"motion.start_x", "m", FIELD(motion.start_x), any, optional.if_(is_held).body(never),
-     "Position x of the center at t = 0"},
-    {"motion.gravity", "m/s2", FIELD(motion.gravity), any, optional.body(never),
+    {"motion.start_x", "m", FIELD(motion.start_x), any,
+     optional.if_(is_held).of(in_motion).body(never), "Position x of the center at t = 0"},
+    {"motion.gravity", "m/s2", FIELD(motion.gravity), any, optional.of(in_motion).body(never),
      "Acceleration of gravity, downwards: 9.81 on Earth"},
     {"motion.slope", "rad", FIELD(motion.slope), less_than_upright,
      optional.of(in_time_untold).body(never),
      "Slope of the ground. The axes of the case stay those of the ground; gravity is tilted "
      "instead, towards +x, downhill, if > 0"},
     {"motion.slip_angle", "rad", FIELD(motion.slip_angle), with(slanted, "in rad: 1° is 0.01745"),
-     optional.if_(is_solid).body(never),
+     optional.if_(is_solid).of(in_motion).body(never),
      "Angle from the heading of a wheel in three dimensions to the velocity of its center; > 0 "
      "travels to the right as well, towards +z"},
     {"motion.camber", "rad", FIELD(motion.camber), with(slanted, "in rad: 1° is 0.01745"),
-     optional.if_(is_solid).body(never),
+     optional.if_(is_solid).of(in_motion).body(never),
      "Angle by which a wheel in three dimensions leans; > 0 leans its top to the left, towards -z"},
 
     {"rim.free", "-",
@@ -475,7 +541,10 @@ constexpr CaseKey keys[] = {
     {"analysis.kind", "-", FIELD(analysis.kind), kind_of_analysis(), optional,
      "\"dynamic\": the body moves as `[motion]` prescribes, over `[time]`. \"crush\": the body is "
      "pressed slowly on flat ground without turning. \"steady-rolling\": the steady state of "
-     "rolling at constant spin, solved directly ([steady rolling](#steady-rolling))"},
+     "rolling at constant spin, solved directly ([steady rolling](#steady-rolling)). "
+     "\"inflation\": "
+     "the equilibrium of a wheel under its air, its spin and the places of its rim "
+     "([inflation](#inflation-air-spin-and-mounting-at-finite-strain))"},
     {"analysis.depth", "m", FIELD(analysis.depth),
      over_increments(with(not_negative, "< disk.outer_radius - disk.inner_radius")),
      required.of(of_crush).said("required if crush").body(never),
@@ -619,10 +688,10 @@ constexpr CaseKey keys[] = {
      "Number of snapshots, evenly spread over [snapshots_from, end], both ends included"},
     {"output.snapshots_from", "s", FIELD(output.snapshots_from), with(not_negative, "<= time.end"),
      optional.of(in_time).body(never), "Time of the first snapshot"},
-    {"output.stress", "-", FIELD(output.stress), any, optional.body(never),
+    {"output.stress", "-", FIELD(output.stress), any, optional.of(not_in_inflation).body(never),
      "Whether the snapshots contain the stress"},
     {"output.checkpoint_interval", "s", FIELD(output.checkpoint_interval), positive,
-     optional.body(never).free_on_resume(),
+     optional.of(not_in_inflation).body(never).free_on_resume(),
      "Wall time between checkpoints (docs/results.md, [Resuming a "
      "run](results.md#resuming-a-run)). One is also written at the end and at a signal. A crush "
      "writes none"},

@@ -36,6 +36,7 @@ constexpr Words words[] = {
     {"array of 2 arrays of 2 floats", "[[a, b], [c, d]], finite numbers"},
     {"array of integers", ""},
     {"array of pairs", "[[a, b], ...], finite numbers"},
+    {"string or array of strings", "a name, or [\"a\", \"b\", ...]"},
 };
 
 const Words& words_of(KeyType type) {
@@ -129,6 +130,7 @@ struct TypeOf {
   KeyType operator()(const std::vector<Vec2>* /*value*/) const { return profile; }
   KeyType operator()(const std::vector<int>* /*value*/) const { return integers; }
   KeyType operator()(const std::vector<std::array<double, 2>>* /*value*/) const { return pairs; }
+  KeyType operator()(const std::vector<std::string>* /*value*/) const { return names; }
 };
 
 }  // namespace

@@ -31,7 +31,8 @@ enum class KeyType {
   vector,
   matrix,
   integers,
-  pairs
+  pairs,
+  names
 };
 
 /// Access to an enum or a bool by the index of its value among the choices of its key.
@@ -59,7 +60,7 @@ using Matrix = std::array<std::array<double, 2>, 2>;
 using CaseMember =
     std::variant<int*, double*, std::optional<double>*, bool*, std::string*, std::filesystem::path*,
                  Choice, ChoiceList, Vec2*, Matrix*, dynamics::Table*, std::vector<Vec2>*,
-                 std::vector<int>*, std::vector<std::array<double, 2>>*>;
+                 std::vector<int>*, std::vector<std::array<double, 2>>*, std::vector<std::string>*>;
 
 template <class T>
 CaseMember field_of(T& target) {
@@ -107,7 +108,9 @@ constexpr unsigned bit_of(AnalysisKind kind) {
   return 1U << static_cast<unsigned>(kind);
 }
 // A kind of analysis that is not named here has the same keys as a dynamic one.
-inline constexpr Analyses in_motion{~bit_of(AnalysisKind::crush)};
+inline constexpr Analyses not_in_crush{~bit_of(AnalysisKind::crush)};
+inline constexpr Analyses not_in_inflation{~bit_of(AnalysisKind::inflation)};
+inline constexpr Analyses in_motion{not_in_crush.bits & not_in_inflation.bits};
 inline constexpr Analyses in_motion_untold{in_motion.bits, false};
 inline constexpr Analyses in_motion_but_written{in_motion.bits, true, true};
 inline constexpr Analyses in_time{in_motion.bits & ~bit_of(AnalysisKind::steady_rolling)};

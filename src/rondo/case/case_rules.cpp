@@ -50,21 +50,6 @@ void check_disk(CaseValues& in, const Case& c) {
   check_size(in, c);
 }
 
-/// Names in the tables of a list must be unique. @param path of the names, as in the table of keys
-void check_names(CaseValues& in, std::string_view path, Case& c) {
-  const CaseKey& key = *find_case_key(path);
-  const auto name = [&](std::size_t k) { return *std::get<std::string*>(key.field(c, k)); };
-  for (std::size_t k = 1; k < table_with(key).count(c); ++k) {
-    const std::string at = path_of(key, k);
-    if (!in.has(at) || !in.good({at})) continue;
-    for (std::size_t before = 0; before < k; ++before)
-      if (name(before) == name(k)) {
-        in.fault(at, "is the name of another one before it");
-        break;
-      }
-  }
-}
-
 void warn_of_locking(const std::string& key, const fem::Material& material, Case& c) {
   if (material.plane != fem::Plane::strain || material.poissons_ratio <= 0.49 ||
       material.integration == fem::Integration::b_bar)
@@ -258,6 +243,20 @@ void check_output(CaseValues& in, Case& c) {
 
 }  // namespace
 
+void check_names(CaseValues& in, std::string_view path, Case& c) {
+  const CaseKey& key = *find_case_key(path);
+  const auto name = [&](std::size_t k) { return *std::get<std::string*>(key.field(c, k)); };
+  for (std::size_t k = 1; k < table_with(key).count(c); ++k) {
+    const std::string at = path_of(key, k);
+    if (!in.has(at) || !in.good({at})) continue;
+    for (std::size_t before = 0; before < k; ++before)
+      if (name(before) == name(k)) {
+        in.fault(at, "is the name of another one before it");
+        break;
+      }
+  }
+}
+
 void check_part(CaseValues& in, const Case& c, const std::string& table) {
   for (const char* key : {"surface", "region"})
     if (is_generated(c) && in.has(fmt::format("{}.{}", table, key)))
@@ -302,6 +301,7 @@ void check_case(CaseValues& in, Case& c) {
   check_rubber(in, c);
   check_output(in, c);
   check_solid(in, c);
+  check_inflation(in, c);
 }
 
 std::string_view largest_count(const mesh::Disk& disk) noexcept {

@@ -26,11 +26,17 @@ void check_rubber(CaseValues& in, Case& c);
 /// checks that it has no key of such a wheel.
 void check_solid(CaseValues& in, Case& c);
 
+/// Rules of [inflation] and [[cords]].
+void check_inflation(CaseValues& in, Case& c);
+
 /// Rules of [rim]; sets the rest positions of its supports if the case does not give them.
 void check_rim(CaseValues& in, Case& c);
 
 /// Rules of the scheme "hati"; checks that the case says which part is fine.
 void check_hati(CaseValues& in, Case& c);
+
+/// Names in the tables of a list must be unique. @param path of the names, as in the table of keys
+void check_names(CaseValues& in, std::string_view path, Case& c);
 
 /// A part of a disk is given by layers, one of a mesh by a surface. @param table of the part
 void check_part(CaseValues& in, const Case& c, const std::string& table);

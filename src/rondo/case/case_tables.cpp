@@ -15,6 +15,10 @@ std::size_t with_rim(const Case& c) {
   return c.rim ? 1 : 0;
 }
 
+std::size_t with_inflation(const Case& c) {
+  return c.inflation ? 1 : 0;
+}
+
 std::size_t with_hati(const Case& c) {
   return c.hati ? 1 : 0;
 }
@@ -43,13 +47,21 @@ constexpr CaseTable tables[] = {
      [](Case& c, std::size_t n) {
        c.regions.resize(n, {{}, {}, c.material, c.law});
      }},
+    {"cords[]", [](const Case& c) { return c.cords.size(); },
+     [](Case& c, std::size_t n) { c.cords.resize(n); }},
+    {"inflation", with_inflation, [](Case& c, std::size_t n) { set_there(c.inflation, n); }},
+    {"inflation.mounting[]",
+     [](const Case& c) { return c.inflation ? c.inflation->mounting.size() : 0; },
+     [](Case& c, std::size_t n) {
+       if (c.inflation) c.inflation->mounting.resize(n);
+     }},
     {"damping", one, nullptr, in_motion},
-    {"motion", one, nullptr, in_motion},
+    {"motion", one, nullptr, not_in_crush},
     {"rim", with_rim, [](Case& c, std::size_t n) { set_there(c.rim, n); }, in_time_untold},
     {"rim.support.x", with_rim, nullptr, in_time_untold},
     {"rim.support.y", with_rim, nullptr, in_time_untold},
     {"ground", [](const Case& c) -> std::size_t { return c.ground ? 1 : 0; },
-     [](Case& c, std::size_t n) { set_there(c.ground, n); }},
+     [](Case& c, std::size_t n) { set_there(c.ground, n); }, not_in_inflation},
     {"contact", one, nullptr, in_time_untold},
     {"load.pressure[]", [](const Case& c) { return c.pressures.size(); },
      [](Case& c, std::size_t n) { c.pressures.resize(n); }, in_motion_untold},

@@ -361,6 +361,25 @@ void CaseValues::take(const Reading& in, std::vector<std::array<double, 2>>& tar
   if (found.size() == in.value.items.size()) target = found;
 }
 
+/// One name, or several; "": none.
+void CaseValues::take(const Reading& in, std::vector<std::string>& target) {
+  if (in.value.type != ValueType::array) {
+    const auto name = text(in);
+    if (name) target.assign(name->empty() ? 0 : 1, *name);
+    return;
+  }
+  if (in.value.items.empty() && in.required)
+    return bad(in, in.value, "must have at least one name");
+  target.clear();
+  for (const CaseValue& item : in.value.items) {
+    if (item.type != ValueType::text) return wrong_type(in, item, "a string");
+    if (item.text.empty()) return bad(in, item, "must not be empty");
+    if (std::ranges::find(target, item.text) != target.end())
+      return bad(in, item, "stands there twice");
+    target.push_back(item.text);
+  }
+}
+
 /// The path is relative to the case file, like that of the mesh, even if --set gives it.
 void CaseValues::take_profile_file(const Reading& in, std::vector<Vec2>& target) {
   const auto folder = std::filesystem::path(source_.sources[0].name).parent_path();

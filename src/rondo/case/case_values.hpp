@@ -106,6 +106,7 @@ class CaseValues {
   void take(const Reading& in, std::vector<Vec2>& target);
   void take(const Reading& in, std::vector<int>& target);
   void take(const Reading& in, std::vector<std::array<double, 2>>& target);
+  void take(const Reading& in, std::vector<std::string>& target);
   void take_profile_file(const Reading& in, std::vector<Vec2>& target);
   void check_key(const std::string& path, const CaseValue& value);
   void not_a_list(const std::string& path, const CaseValue& value);

@@ -64,6 +64,12 @@ struct ValueText {
     if (value->empty()) return "[]";
     return pairs_text(*value, [](const auto& p) { return pair_text(p[0], p[1]); });
   }
+  std::string operator()(const std::vector<std::string>* value) const {
+    if (value->size() < 2) return toml_string(value->empty() ? "" : value->front());
+    std::string said;
+    for (const std::string& name : *value) said += (said.empty() ? "" : ", ") + toml_string(name);
+    return "[" + said + "]";
+  }
   std::string operator()(const std::vector<Vec2>* value) const {
     if (*value == contact::GroundShape{}.profile) return "\"flat\"";
     return pairs_text(*value, [](Vec2 p) { return pair_text(p.x, p.y); });

@@ -3,11 +3,13 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "rondo/case/case.hpp"
+#include "rondo/case/inflation_figures.hpp"
 #include "rondo/model/model.hpp"
 #include "rondo/model/stability/critical_step.hpp"
 
@@ -33,7 +35,8 @@ struct Setup {
   fem::NodalDilatation dilatation;                     ///< of B-bar triangles, for their stress
   std::vector<ProbeSite> probes;                       ///< of output.probes
   dynamics::Model model;
-  std::vector<char> implicit_cells;   ///< (e) 1: implicit; empty: none
+  std::optional<InflationFigures> inflation;  ///< of a wheel about its inflated state
+  std::vector<char> implicit_cells;           ///< (e) 1: implicit; empty: none
   dynamics::CriticalStep critical;    ///< of the explicit elements; infinite: there are none
   double critical_plain = 0.0;        ///< critical step with all elements explicit, own mass [s]
   long long n_steps = 0;              ///< ceil(end / step); the step is never fitted to the end

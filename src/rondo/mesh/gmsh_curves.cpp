@@ -79,7 +79,8 @@ Demand demand_on(const NamedGroup& group, const CurveInput& in) {
   };
   Demand demand;
   demand.boundary = is(in.request.contact) || std::ranges::any_of(in.request.curves, is);
-  demand.named = demand.boundary || is(in.request.clamped);
+  demand.named = demand.boundary || std::ranges::any_of(in.request.clamped, is) ||
+                 std::ranges::any_of(in.request.lines, is);
   return demand;
 }
 
@@ -208,12 +209,12 @@ void add_curves(const CurveInput& in, Draft& draft, Findings& findings) {
 
 void add_boundary(const CurveInput& in, Draft& draft, Findings& findings) {
   Mesh& mesh = draft.mesh;
-  if (const Curve* const curve = curve_of(in.request.clamped, in, mesh)) {
-    for (const Edge& edge : curve->edges)
-      mesh.clamped.insert(mesh.clamped.end(), edge.begin(), edge.end());
-    std::ranges::sort(mesh.clamped);
-    mesh.clamped.erase(std::unique(mesh.clamped.begin(), mesh.clamped.end()), mesh.clamped.end());
-  }
+  for (const std::string& name : in.request.clamped)
+    if (const Curve* const curve = curve_of(name, in, mesh))
+      for (const Edge& edge : curve->edges)
+        mesh.clamped.insert(mesh.clamped.end(), edge.begin(), edge.end());
+  std::ranges::sort(mesh.clamped);
+  mesh.clamped.erase(std::unique(mesh.clamped.begin(), mesh.clamped.end()), mesh.clamped.end());
   const Curve* const contact = curve_of(in.request.contact, in, mesh);
   if (contact == nullptr) return;
   add_candidates(*contact, mesh);

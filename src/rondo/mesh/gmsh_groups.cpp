@@ -172,9 +172,10 @@ const NamedGroup* find_group(const std::vector<NamedGroup>& groups, int dimensio
 
 void check_names(const MeshRequest& request, const std::vector<NamedGroup>& groups,
                  Findings& findings) {
-  if (!request.clamped.empty()) check_name("clamped", request.clamped, 1, groups, findings);
+  for (const std::string& name : request.clamped) check_name("clamped", name, 1, groups, findings);
   if (!request.contact.empty()) check_name("contact", request.contact, 1, groups, findings);
   for (const std::string& name : request.curves) check_name("curve", name, 1, groups, findings);
+  for (const std::string& name : request.lines) check_name("curve", name, 1, groups, findings);
   for (const std::string& name : request.surfaces) check_name("surface", name, 2, groups, findings);
 }
 

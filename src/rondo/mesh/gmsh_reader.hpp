@@ -13,10 +13,11 @@ namespace rondo::mesh {
 /// All names are those of physical groups; a group without a name is called by its number ("7").
 struct MeshRequest {
   std::filesystem::path file{};
-  double scale = 1.0;                 ///< m per unit of length of the file, > 0
-  std::string clamped{};              ///< curve of clamped nodes; empty: none
-  std::string contact{};              ///< curve of contact candidates; empty: none
+  double scale = 1.0;                  ///< m per unit of length of the file, > 0
+  std::vector<std::string> clamped{};  ///< curves of clamped nodes
+  std::string contact{};               ///< curve of contact candidates; empty: none
   std::vector<std::string> curves{};  ///< further ones that must exist, each a part of the boundary
+  std::vector<std::string> lines{};   ///< further ones that must exist, on edges of cells
   std::vector<std::string> surfaces{};  ///< further ones that must exist
 };
 

@@ -67,7 +67,7 @@ TEST(ReadBodies, TakesEveryKey) {
   ASSERT_TRUE(c.mesh);
   EXPECT_EQ(c.mesh->file, file.path().parent_path() / "parts/two.msh");
   EXPECT_EQ(c.mesh->scale, 1e-3);
-  EXPECT_EQ(c.mesh->clamped, "");
+  EXPECT_TRUE(c.mesh->clamped.empty());
   EXPECT_EQ(c.mesh->contact, "skin");
   EXPECT_FALSE(is_held(c));
   EXPECT_EQ(c.material.integration, fem::Integration::b_bar);
@@ -112,7 +112,24 @@ TEST(ReadBodies, AMeshMayBeHeld) {
   const Case c = read_text(text, {"contact.between=none", "motion.angular_velocity=3",
                                   "motion.speed=1", "motion.height=0.3"});
   EXPECT_TRUE(is_held(c));
-  EXPECT_EQ(c.mesh->clamped, "rim");
+  EXPECT_EQ(c.mesh->clamped, std::vector<std::string>{"rim"});
+}
+
+TEST(ReadBodies, SeveralCurvesMayBeHeld) {
+  const std::vector<std::string> motion{"contact.between=none", "motion.angular_velocity=3",
+                                        "motion.speed=1", "motion.height=0.3"};
+  const auto with = [&](const std::string& value) {
+    return with_line(5, "clamped = " + value, thrown);
+  };
+  const Case c = read_text(with("[\"left\", \"right\"]"), motion);
+  EXPECT_EQ(c.mesh->clamped, (std::vector<std::string>{"left", "right"}));
+  EXPECT_NE(write_case(c).find("clamped = [\"left\", \"right\"]\n"), std::string::npos);
+  EXPECT_TRUE(read_text(with("[]"), {"contact.between=none"}).mesh->clamped.empty());
+  for (const char* wrong : {"[\"left\", \"left\"]", "[\"left\", 3]", "[\"\"]", "7"}) {
+    const auto faults = faults_of(with(wrong), motion);
+    ASSERT_FALSE(faults.empty()) << wrong;
+    EXPECT_EQ(faults[0].key, "mesh.clamped") << wrong;
+  }
 }
 
 TEST(ReadBodies, AnAbsoluteFileStaysWhatItIs) {

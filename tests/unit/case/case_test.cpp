@@ -191,6 +191,9 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
            key == "initial.angular_velocity";
   };
   const std::string wheel = "\n" + write_case(read_text(least + ground, {"disk.width=0.1"}));
+  const std::string inflated =
+      "\n" + write_case(read_text(rubber("model = 'neo-hooke'\nshear_modulus = 1e6"),
+                                  {"disk.width=0.1", "inflation={}"}));
   const auto is_for_wheels = [](std::string_view key) {
     return key == "disk.mesh.axial" || key == "motion.slip_angle" || key == "motion.camber";
   };
@@ -203,10 +206,11 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
     const bool is_crush = means_to(key, AnalysisKind::crush);
     const std::string& text = is_steady && is_crush
                                   ? key.path == "analysis.solver" ? direct : pressed
-                              : is_steady                    ? steady
-                              : is_for_free_bodies(key.path) ? free
-                              : is_for_wheels(key.path)      ? wheel
-                                                             : held;
+                              : is_steady                          ? steady
+                              : is_for_free_bodies(key.path)       ? free
+                              : is_for_wheels(key.path)            ? wheel
+                              : key.path.starts_with("inflation.") ? inflated
+                                                                   : held;
     const auto table = table_of(key.path);
     const auto begin = text.find(fmt::format("\n[{}]\n", table));
     ASSERT_NE(begin, std::string::npos) << key.path;

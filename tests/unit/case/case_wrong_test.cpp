@@ -383,7 +383,7 @@ const std::vector<Wrong> wrongs{
      "[analysis]\nkind = \"squash\"",
      "analysis.kind",
      38,
-     {"\"dynamic\", \"crush\" or \"steady-rolling\""}},
+     {"\"dynamic\", \"crush\", \"steady-rolling\" or \"inflation\""}},
     {"DepthOfADynamicCase",
      37,
      "[analysis]\ndepth = 0.02",

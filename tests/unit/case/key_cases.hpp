@@ -88,6 +88,19 @@ height = 1
 [time]
 end = 0.2
 )";
+    const std::string inflated = section.substr(0, section.find("youngs")) +
+                                 "model = 'neo-hooke'\nshear_modulus = 1e6\n" +
+                                 section.substr(section.find("poissons"));
+    const std::string air =
+        "inflation={curve = 'liner', pressure = 1e5, spin = 3, steps = 4, "
+        "mounting = [{curve = 'rim', axial = 1e-3, radial = 1e-4}]}";
+    const std::vector<std::string> cords{
+        air,
+        "cords=[{curve = 'belt', angle = 0.4, stiffness = 1e3, spacing = 1e-3, spacing_radius = "
+        "0.3, excess_mass = 1e-4, prestrain = 0.01, compression = 0.5}]"},
+        lifted{air,
+               "cords=[{curve = 'ply', angle = 1.5, youngs_modulus = 1e9, area = 1e-7, spacing = "
+               "1e-3, density = 1200, green_radius = 0.2, green_extension = 0.1}]"};
     const std::string without_speed = with_line(20, "");
     const std::vector<std::string> viscous{
         "material.viscosity=[{relative_modulus = 0.5, time = 0.001}]",
@@ -119,6 +132,8 @@ end = 0.2
                   {"material.region=[{layers = [1]}]"}),
         read_text(treaded(), wheel),
         read_text(section),
+        read_text(inflated, cords),
+        read_text(inflated, lifted),
         read_text(base, latin),
         read_text(base, crush)};
   }();
@@ -182,6 +197,7 @@ struct Change {
   }
   void operator()(std::vector<int>* value) const { *value = {3, 7}; }
   void operator()(std::vector<std::array<double, 2>>* value) const { *value = {{0.7, 1.3}}; }
+  void operator()(std::vector<std::string>* value) const { *value = {"rim-2", "bead"}; }
   void operator()(std::vector<Vec2>* value) const { *value = {{-1.5, 0.25}, {2.0, 0.25}}; }
 };
 

@@ -183,13 +183,14 @@ TEST(GmshFaults, NoCells) {
 // Physical groups -----------------------------------------------------------------------------
 
 TEST(GmshFaults, MissingGroups) {
-  expect_refused(squares(),
-                 {"clamped = \"rim\": there is no physical curve of this name",
-                  "contact = \"fooot\"", "curves \"foot\", \"top\"; surfaces \"block\"",
-                  "did you mean \"foot\"?", "curve = \"liner\"",
-                  "surface = \"blok\": there is no physical surface", "did you mean \"block\"?",
-                  "in the .geo: Physical Curve(\"rim\") = {1, 2};", "Physical Surface(\"blok\")"},
-                 {.clamped = "rim", .contact = "fooot", .curves = {"liner"}, .surfaces = {"blok"}});
+  expect_refused(
+      squares(),
+      {"clamped = \"rim\": there is no physical curve of this name", "contact = \"fooot\"",
+       "curves \"foot\", \"top\"; surfaces \"block\"", "did you mean \"foot\"?",
+       "curve = \"liner\"", "surface = \"blok\": there is no physical surface",
+       "did you mean \"block\"?", "in the .geo: Physical Curve(\"rim\") = {1, 2};",
+       "Physical Surface(\"blok\")"},
+      {.clamped = {"rim"}, .contact = "fooot", .curves = {"liner"}, .surfaces = {"blok"}});
 }
 
 TEST(GmshFaults, GroupOfAnotherDimension) {
@@ -200,7 +201,7 @@ TEST(GmshFaults, GroupOfAnotherDimension) {
                  {"contact = \"block\": this is a physical surface, not a curve",
                   "clamped = \"corner\": this is a physical point, not a curve",
                   "surface = \"foot\": this is a physical curve, not a surface"},
-                 {.clamped = "corner", .contact = "block", .surfaces = {"foot"}});
+                 {.clamped = {"corner"}, .contact = "block", .surfaces = {"foot"}});
 }
 
 TEST(GmshFaults, GroupWithoutElements) {
@@ -221,7 +222,7 @@ TEST(GmshFaults, ContactInsideTheBody) {
                     "line 10 from (1, 0)"};
   expect_refused(msh, words, {.contact = "seam"});
   expect_refused(msh, words, {.curves = {"seam"}});
-  EXPECT_EQ(refusal_of(msh.text(), {.clamped = "seam"}), "taken");
+  EXPECT_EQ(refusal_of(msh.text(), {.clamped = {"seam"}}), "taken");
 }
 
 TEST(GmshFaults, CurveThatIsNoEdgeOfACell) {
@@ -229,7 +230,7 @@ TEST(GmshFaults, CurveThatIsNoEdgeOfACell) {
   msh.names.push_back("1 8 \"axis\"");
   msh.elements.push_back("1 2 8 8 1 6");
   for (const MeshRequest& request :
-       {MeshRequest{.clamped = "axis"}, MeshRequest{.contact = "axis"}})
+       {MeshRequest{.clamped = {"axis"}}, MeshRequest{.contact = "axis"}})
     expect_refused(
         msh,
         {"1 lines of the physical curve \"axis\" are no edge of a cell", "line 10 from (0, 0)"},
@@ -238,7 +239,7 @@ TEST(GmshFaults, CurveThatIsNoEdgeOfACell) {
 
 TEST(GmshFaults, AllCandidatesClamped) {
   expect_refused(squares(), {"all nodes of the contact curve \"top\" are clamped"},
-                 {.clamped = "top", .contact = "top"});
+                 {.clamped = {"top"}, .contact = "top"});
 }
 
 TEST(GmshFaults, CellInTwoSurfaces) {

@@ -29,7 +29,7 @@ constexpr double division = 1e-9;
 const std::filesystem::path meshes = RONDO_TEST_MESHES, cases = RONDO_CASE_MESHES;
 
 Mesh read(const std::filesystem::path& file, const std::string& contact = "",
-          const std::string& clamped = "") {
+          const std::vector<std::string>& clamped = {}) {
   ReadMesh got = read_gmsh({.file = file, .clamped = clamped, .contact = contact});
   for (const std::string& warning : got.warnings) ADD_FAILURE() << warning;
   return std::move(got.mesh);
@@ -78,7 +78,7 @@ void expect_same(const Mesh& a, const Mesh& b) {
 TEST(ReadGmsh, TheFourFormsGiveTheSameMesh) {
   const auto take = [](const char* name) {
     return read_gmsh({.file = meshes / name,
-                      .clamped = "6",
+                      .clamped = {"6"},
                       .contact = "skin",
                       .curves = {"top"},
                       .surfaces = {"right"}});
@@ -148,7 +148,7 @@ TEST(ReadGmsh, ClosedCurve) {
 
 TEST(ReadGmsh, ClampedNodesAreNoCandidates) {
   const ReadMesh got =
-      read_gmsh({.file = meshes / "mixed-41.msh", .clamped = "6", .contact = "foot"});
+      read_gmsh({.file = meshes / "mixed-41.msh", .clamped = {"6"}, .contact = "foot"});
   const Mesh& m = got.mesh;
   EXPECT_EQ(m.clamped.size(), 4U);
   EXPECT_TRUE(std::ranges::is_sorted(m.clamped));
@@ -257,7 +257,7 @@ TEST(ReadGmsh, LinesOfOtherCurvesThatAreNoEdgesAreLeftOut) {
 }
 
 TEST(ReadGmsh, MeshesOfTheCases) {
-  const Mesh block = read(cases / "block.msh", "foot", "top");
+  const Mesh block = read(cases / "block.msh", "foot", {"top"});
   EXPECT_EQ(block.cells.size(), 100U);
   EXPECT_EQ(block.boundary.size(), 11U);
   EXPECT_EQ(block.clamped.size(), 11U);
@@ -269,7 +269,7 @@ TEST(ReadGmsh, MeshesOfTheCases) {
   EXPECT_EQ(disks.boundary.size(), 80U);
   EXPECT_EQ(disks.region_names, (std::vector<std::string>{"left", "right"}));
   EXPECT_EQ(curve(disks, "left-tread").edges.size(), 40U);
-  const Mesh tyre = read(cases / "tyre-section.msh", "tread", "rim");
+  const Mesh tyre = read(cases / "tyre-section.msh", "tread", {"rim"});
   EXPECT_EQ(find_bodies(tyre).count, 1);
   EXPECT_EQ(tyre.region_names,
             (std::vector<std::string>{"sidewall", "carcass", "belt", "tread-rubber"}));

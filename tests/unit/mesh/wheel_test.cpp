@@ -275,7 +275,7 @@ TEST(Wheel, SectionFromAFile) {
   const test::TemporaryFile file(msh.text());
   const mesh::MeshRequest request{.file = file.path(),
                                   .scale = 0.1,
-                                  .clamped = "rim",
+                                  .clamped = {"rim"},
                                   .contact = "tread",
                                   .curves = {"cavity"}};
   const Mesh section = mesh::read_gmsh(request).mesh;

@@ -101,8 +101,8 @@ SweptSection everything() {
   ply.law = {2.0, 0.01, 1.0};
   ply.angle = 0.38;
   ply.spacing = 0.05;
-  ply.excess_mass = 0.01;
   ply.lines = {{2, 3}};
+  ply.excess_mass = {0.01};
   s.cords = {ply, ply};
   s.cords[1].law = {3.0, -0.02, 0.5};
   s.cords[1].angle = -0.9;
@@ -151,8 +151,8 @@ SweptSection tyre(int n_sectors) {
     c.law.stiffness = stiffness;
     c.angle = angle;
     c.spacing = spacing;
-    c.excess_mass = excess;
     c.lines = curve(name);
+    c.excess_mass.assign(c.lines.size(), excess);
     s.cords.push_back(c);
   };
   add("carcass", 1900.0, 0.5 * pi, 1e-3, 8.74e-5);
@@ -340,8 +340,8 @@ TEST(Inflation, AStringUnderPressureHasItsFrequencies) {
   Cords hoop;
   hoop.law.stiffness = 1e4;
   hoop.spacing = 1e-3;
-  hoop.excess_mass = 3e-3 * (0.5 * angle) / std::sin(0.5 * angle);  // of the circle
   hoop.lines = {{0, 1}};
+  hoop.excess_mass = {3e-3 * (0.5 * angle) / std::sin(0.5 * angle)};  // of the circle
   section.cords = {hoop};
   section.liner = {{1, 0}};
   const SectorEnergy wheel(section);

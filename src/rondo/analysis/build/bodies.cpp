@@ -64,6 +64,16 @@ std::vector<NameKey> curve_keys(const Case& c) {
   std::vector<NameKey> keys;
   for (std::size_t k = 0; k < c.pressures.size(); ++k)
     keys.push_back({item_of("load.pressure", k) + ".curve", c.pressures[k].curve});
+  if (c.inflation && !c.inflation->curve.empty())
+    keys.push_back({"inflation.curve", c.inflation->curve});
+  return keys;
+}
+
+/// Of curves that may also lie inside.
+std::vector<NameKey> line_keys(const Case& c) {
+  std::vector<NameKey> keys;
+  for (std::size_t k = 0; k < c.cords.size(); ++k)
+    keys.push_back({item_of("cords", k) + ".curve", c.cords[k].curve});
   return keys;
 }
 
@@ -87,7 +97,10 @@ std::vector<std::string> names_of(const std::vector<NameKey>& keys) {
 std::vector<std::string> keys_about(const Case& c, const Fault& fault) {
   if (fault.key == "clamped" || fault.key == "contact") return {file_table(c) + "." + fault.key};
   std::vector<NameKey> candidates;
-  if (fault.key == "curve") candidates = curve_keys(c);
+  if (fault.key == "curve") {
+    candidates = curve_keys(c);
+    for (NameKey& key : line_keys(c)) candidates.push_back(std::move(key));
+  }
   if (fault.key == "surface") candidates = surface_keys(c);
   std::vector<std::string> keys;
   for (const NameKey& key : candidates)
@@ -126,6 +139,7 @@ mesh::Mesh read_mesh_file(const Case& c, std::vector<std::string>* warnings) {
                                            .clamped = m.clamped,
                                            .contact = m.contact,
                                            .curves = names_of(curve_keys(c)),
+                                           .lines = names_of(line_keys(c)),
                                            .surfaces = names_of(surface_keys(c))});
     if (warnings)
       for (const std::string& warning : read.warnings)

@@ -60,7 +60,7 @@ void refuse_held_curve(const Case& c, const mesh::Mesh& mesh, const std::string&
       c, key,
       fmt::format("every node of the curve \"{}\" is held: a pressure there has no effect", name),
       c.mesh ? fmt::format("a curve that is not held; mesh.clamped = \"{}\" holds this one",
-                           c.mesh->clamped)
+                           fmt::join(c.mesh->clamped, "\", \""))
              : "\"tread\", the outer boundary; the inner boundary of a [disk] is its rim: for a "
                "cavity that is inflated, a [mesh] whose mesh.clamped is another curve");
 }
@@ -288,7 +288,8 @@ std::string body_key(const Case& c) {
   Case body = c;
   for (const CaseKey& key : case_keys())
     if (!key.use.changes_body(c)) reset(key, body);
-  if (c.stress_stiffening != StressStiffening::none)  // by the spin at the start
+  if (c.stress_stiffening != StressStiffening::none ||
+      (c.inflation && !c.inflation->spin))  // by the spin at the start
     body.motion.angular_velocity = dynamics::Table(c.motion.angular_velocity.at(0.0));
   return write_case(body);
 }

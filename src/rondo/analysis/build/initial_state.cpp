@@ -30,6 +30,8 @@ statics::StationarySpin find_stationary(const Setup& s, double spin) {
 /// Sets the stationary state of what is held; free bodies stay as they are.
 void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
   const double spin = -c.motion.angular_velocity.at(0.0);
+  const double rest = c.inflation ? spin_at_rest(c) : 0.0;
+  if (spin * spin == rest * rest) return;  // it is at rest
   if (shared && !shared->stationary.empty() && shared->spin == spin) {
     RONDO_DEMAND(shared->stationary.size() == s.model.n_nodes(), shared->stationary.size(),
                  s.model.n_nodes());
@@ -43,6 +45,8 @@ void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
                      "exceeds the stiffness",
                      "a lower rotation speed, or a stiffer material");
   s.displacement = std::move(stationary.u);
+  if (rest != 0.0)  // of the pull at rest there is none left
+    for (Vec3& u : s.displacement.space()) u = (1.0 - rest * rest / (spin * spin)) * u;
   RONDO_DEMAND(s.displacement.size() == s.model.n_nodes() &&
                    s.displacement.components() == s.model.components(),
                s.displacement.size(), s.displacement.components(), s.model.n_nodes());

@@ -90,7 +90,8 @@ void warn_of_softening(const Case& c, Setup& s) {
   const dynamics::Model& m = s.model;
   const double spin = largest_until(c.motion.angular_velocity, c.time.end);
   if (spin == 0.0 || c.stress_stiffening != StressStiffening::none || !is_held(c)) return;
-  if (has_rubber(c)) return;  // stress stiffens it
+  if (has_rubber(c)) return;                                     // stress stiffens it
+  if (c.inflation && spin <= std::abs(spin_at_rest(c))) return;  // a stable equilibrium
   if (!softening_is_checked(count_dofs(m), harmonic_dofs(m))) {
     s.warnings.push_back(
         fmt::format("the check of spin softening is left out above {} degrees of freedom, unless "
@@ -108,7 +109,7 @@ void warn_of_softening(const Case& c, Setup& s) {
   const Interval omega = lowest_frequency(m, spin);
   if (omega.high <= spin)
     s.warnings.push_back(beyond_softening(c, spin, omega));
-  else
+  else if (!c.inflation)
     s.warnings.push_back(
         fmt::format("at {:.6g} rad/s the centrifugal softening takes more than a quarter of the "
                     "lowest stiffness (s² > ω₁²/4, ω₁ = {:.4g} to {:.4g} rad/s): a small-strain "

@@ -14,6 +14,7 @@
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/plausible/number_range.hpp"
 #include "rondo/analysis/build/plausible/plausible.hpp"
+#include "rondo/analysis/build/tyre/inflation_members.hpp"
 #include "rondo/analysis/figures/steady_figures.hpp"
 #include "rondo/analysis/steady/scheme_power.hpp"
 #include "rondo/analysis/steady/steady_case.hpp"
@@ -99,6 +100,8 @@ CheckReport SteadyRolling::check(double /*trial*/) {
   r.memory_bytes = body_->memory(case_);
   r.disk_bytes = disk_needed(record_plan(), false).all;
   r.lines = told_.figures;
+  if (body_->inflation)
+    for (Told& line : told_of(*body_->inflation)) r.lines.push_back(std::move(line));
   r.lines.emplace_back(
       "sectors", fmt::format("{} of {} degrees of freedom, {} samples each", body_->mesh.n_sectors,
                              body_->sector_dofs, samples()));
@@ -140,6 +143,7 @@ void SteadyRolling::prepare() {
 void SteadyRolling::describe(Json& j) const {
   add_size(body_->mesh.n_nodes(), body_->dofs, j);
   if (is_solid(case_)) add_wheel({}, body_->mesh.n_sectors, case_.motion.camber, j);
+  if (body_->inflation) add_inflation(*body_->inflation, j);
   describe_steady(body_->harmonics_wall_s, solve_s_, j);
 }
 

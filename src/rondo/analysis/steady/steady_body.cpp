@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/steady_start.hpp"
+#include "rondo/analysis/build/tyre/wheel_at_rest.hpp"
 #include "rondo/core/index.hpp"
-#include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/modal/critical_speeds.hpp"
 #include "rondo/modal/solid_critical_spin.hpp"
 #include "rondo/statics/stationary_spin.hpp"
@@ -105,16 +106,17 @@ std::size_t SteadyBody<D>::memory(const Case& c) const {
 
 template <int D>
 void SteadyBody<D>::assemble(const Case& c) {
-  if constexpr (D == 2)
+  if constexpr (D == 2) {
     mass = fem::lumped_mass(mesh, materials);
-  else
-    mass = fem::solid_mass(mesh, materials);
+  } else {
+    WheelAtRest rest = wheel_at_rest(c, mesh, materials);
+    mass = std::move(rest.mass);
+    sector = std::move(rest.sector);
+    inflation = std::move(rest.inflation);
+  }
   dofs = D * fem::free_nodes(mesh).size();
   demand_range(c, *this);
-  if constexpr (D == 2)
-    sector = fem::assemble_sector(mesh, materials);
-  else
-    sector = fem::assemble_solid_sector(mesh, materials);
+  if constexpr (D == 2) sector = fem::assemble_sector(mesh, materials);
   sector_dofs = D * sector.n_local();
   if constexpr (D == 2) add_stress_stiffening(c, *this);
   radius = radius_of(c, mesh);
@@ -133,6 +135,7 @@ void SteadyBody<D>::find_harmonics(const Case& c, int threads) {
                                             .axial = mesh.axial,
                                             .candidates = candidate_rows(mesh, sector),
                                             .spin = spin_of(c),
+                                            .rest_spin = c.inflation ? spin_at_rest(c) : 0.0,
                                             .mass_damping = c.damping.mass,
                                             .stiffness_damping = c.damping.stiffness,
                                             .samples = c.analysis.samples_per_sector,

@@ -91,6 +91,7 @@ class RolledBody {
   std::size_t dofs = 0, sector_dofs = 0;
   std::vector<std::string> warnings;  ///< for the user: the caller prints them
   double harmonics_wall_s = 0.0;
+  std::optional<InflationFigures> inflation;  ///< none: about the undeformed shape
 };
 
 /// The equations of all harmonics stay within the range of the numbers. @pre mesh, materials and

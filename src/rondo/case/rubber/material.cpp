@@ -27,7 +27,7 @@ fem::Rubber law_of(const MaterialLaw& law) {
 
 }  // namespace
 
-bool has_rubber(const Case& c) noexcept {
+bool has_rubber_law(const Case& c) noexcept {
   return c.law.is_rubber() || std::ranges::any_of(c.regions, [](const MaterialRegion& region) {
            return region.law.is_rubber();
          });

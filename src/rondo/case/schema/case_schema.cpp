@@ -63,6 +63,10 @@ Json value_schema(const CaseKey& key) {
       return without_repeats(array_of(bounded("integer", range), 1));
     case KeyType::pairs:
       return array_of(pair_in(any_number), key.use.required ? 1 : 0);
+    case KeyType::names:
+      return any_of(text_of(key),
+                    without_repeats(array_of(Json{{"type", "string"}, {"minLength", 1}},
+                                             key.use.required ? 1 : 0)));
   }
   return {};
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/fem/finite/rubber_hexahedron.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -30,13 +32,30 @@ Slopes slopes_of(const Eigen::Matrix<double, 8, 3>& n) {
   return b;
 }
 
-}  // namespace
-
-RubberEnergy rubber_hexahedron(const HexahedronPoints& points, const HexahedronCorners& u,
-                               const Rubber& rubber) {
+Eigen::Matrix<double, 3, 8> moves_of(const HexahedronCorners& u) {
   Eigen::Matrix<double, 3, 8> move;
   for (std::size_t a = 0; a < 8; ++a)
     move.col(static_cast<Eigen::Index>(a)) << u[a].x, u[a].y, u[a].z;
+  return move;
+}
+
+}  // namespace
+
+double largest_stretch(const HexahedronPoints& points, const HexahedronCorners& u) {
+  const Eigen::Matrix<double, 3, 8> move = moves_of(u);
+  double largest = 0.0;
+  for (std::size_t q = 0; q < 8; ++q) {
+    const Eigen::Matrix3d f = Eigen::Matrix3d::Identity() + move * gradients_at(points, q);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of(f.transpose() * f,
+                                                            Eigen::EigenvaluesOnly);
+    largest = std::max(largest, std::sqrt(of.eigenvalues()[2]));
+  }
+  return largest;
+}
+
+RubberEnergy rubber_hexahedron(const HexahedronPoints& points, const HexahedronCorners& u,
+                               const Rubber& rubber) {
+  const Eigen::Matrix<double, 3, 8> move = moves_of(u);
   RubberEnergy out;
   out.least = 1e300;
   std::array<Slopes, 8> slopes;

@@ -17,4 +17,7 @@ struct RubberEnergy : Energy<8> {
 [[nodiscard]] RubberEnergy rubber_hexahedron(const HexahedronPoints& points,
                                              const HexahedronCorners& u, const Rubber& rubber);
 
+/// Largest principal stretch at the points, as above.
+[[nodiscard]] double largest_stretch(const HexahedronPoints& points, const HexahedronCorners& u);
+
 }  // namespace rondo::fem::finite

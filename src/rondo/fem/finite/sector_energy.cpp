@@ -106,8 +106,13 @@ std::vector<std::array<CordPoint, 4>> SectorEnergy::points_of(const Cords& cords
     for (std::size_t q = 0; q < 4; ++q) {
       angle[q] = cords.angle;
       spacing[q] = cords.spacing;
-      if (cords.spacing_radius)
-        spacing[q] *= norm(face_point(face, q).place.plane()) / *cords.spacing_radius;
+      const double r = norm(face_point(face, q).place.plane());
+      if (cords.spacing_radius) spacing[q] *= r / *cords.spacing_radius;
+      if (!cords.lift) continue;
+      const double cosine = cords.lift->cosine(cords.angle, r);
+      RONDO_DEMAND(std::abs(cosine) <= 1.0, cosine, r);
+      angle[q] = std::copysign(std::acos(cosine), cords.angle);
+      spacing[q] *= r / cords.lift->radius * std::sin(angle[q]) / std::sin(cords.angle);
     }
     points.push_back(cord_points(face, angle, spacing));
   }
@@ -125,6 +130,8 @@ void SectorEnergy::check() const {
   for (const Cords& cords : section_.cords) {
     RONDO_DEMAND(cords.spacing > 0.0 && cords.law.stiffness > 0.0, cords.spacing,
                  cords.law.stiffness);
+    RONDO_DEMAND(cords.excess_mass.empty() || cords.excess_mass.size() == cords.lines.size(),
+                 cords.excess_mass.size(), cords.lines.size());
     std::vector<int> out(n), in(n);
     for (const auto& [from, to] : cords.lines) {
       ++out[at(from)];
@@ -170,10 +177,10 @@ void SectorEnergy::make_mass() {
       mass_[at(quad.corner[a % 4])] += section_.densities[at(quad.rubber)] * volumes[a];
   }
   for (std::size_t l = 0; l < layers_.size(); ++l)
-    for (std::size_t e = 0; e < layers_[l].size(); ++e)
+    for (std::size_t e = 0; e < section_.cords[l].excess_mass.size(); ++e)
       for (const CordPoint& p : layers_[l][e])
         for (const int node : section_.cords[l].lines[e])
-          mass_[at(node)] += 0.5 * p.length * section_.cords[l].excess_mass;
+          mass_[at(node)] += 0.5 * p.length * section_.cords[l].excess_mass[e];
 }
 
 /// (n) Places of the nodes of the section.
@@ -255,6 +262,34 @@ std::vector<SectorEnergy::CordPlace> SectorEnergy::cords(std::size_t layer,
     }
   }
   return out;
+}
+
+double SectorEnergy::largest_stretch(std::span<const Vec3> u) const {
+  double largest = 0.0;
+  for (std::size_t e = 0; e < section_.quads.size(); ++e)
+    largest = std::max(
+        largest,
+        finite::largest_stretch(points_[e], at_corners(corners_of(section_.quads[e]), u, turn_)));
+  return largest;
+}
+
+std::optional<double> SectorEnergy::cavity(std::span<const Vec3> u) const {
+  std::vector<int> balance(n_nodes(), 0);  // of edges that leave and arrive
+  for (const auto& [from, to] : section_.liner) {
+    ++balance[at(from)];
+    --balance[at(to)];
+  }
+  const auto first = std::ranges::find(balance, 1), last = std::ranges::find(balance, -1);
+  const auto ends = static_cast<std::size_t>(std::ranges::count(balance, 0)) + 2;
+  if (first == balance.end() || last == balance.end() || ends != n_nodes()) return std::nullopt;
+  Curve closed = section_.liner;
+  closed.push_back(
+      {static_cast<int>(last - balance.begin()), static_cast<int>(first - balance.begin())});
+  const std::vector<Vec3> x = places(u);
+  double volume = 0.0;
+  for (const auto& edge : closed)
+    volume += cone_volume(at_corners(corners_of(edge), x, turn_)).value;
+  return section_.n_sectors * volume;
 }
 
 }  // namespace rondo::fem::finite

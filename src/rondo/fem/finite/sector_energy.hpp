@@ -59,6 +59,12 @@ class SectorEnergy {
   };
   [[nodiscard]] std::vector<CordPlace> cords(std::size_t layer, std::span<const Vec3> u) const;
 
+  /// Of the rubber, at the points of its elements.
+  [[nodiscard]] double largest_stretch(std::span<const Vec3> u) const;
+  /// Between the liner, from end to end, and the ring that joins its ends; of the whole wheel.
+  /// Absent: the liner is not one line with two ends [m³]
+  [[nodiscard]] std::optional<double> cavity(std::span<const Vec3> u) const;
+
  private:
   [[nodiscard]] std::array<int, 2> outwards(std::array<int, 2> edge) const;
   void check() const;

@@ -3,6 +3,7 @@
 /// rubber, cords, the surface that holds the air.
 #pragma once
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,19 @@ struct SweptQuad {
 /// Edges of a curve in its direction: from, to.
 using Curve = std::vector<std::array<int, 2>>;
 
+/// A layer that was made on a drum and lifted into its mould: the number of cords around is the
+/// same at all radii, and their angle α to the direction around follows from that on the drum,
+/// cos α / r = cos α_g / (r_g (1 + e)).
+struct Lift {
+  double radius = 0.0;     ///< r_g of the drum [m]
+  double extension = 0.0;  ///< e of the cords
+
+  /// cos α at a radius; above 1: no cord is so far out. @param angle α_g on the drum [rad]
+  [[nodiscard]] double cosine(double angle, double r) const noexcept {
+    return std::cos(angle) * r / (radius * (1.0 + extension));
+  }
+};
+
 /// A layer of cords along a curve.
 struct Cords {
   std::string name;
@@ -29,8 +43,10 @@ struct Cords {
   double spacing = 0.0;  ///< across the cords                                           [m]
   std::optional<double> spacing_radius;  ///< where it is that: the number of cords around is the
                                          ///< same everywhere                          [m]
-  double excess_mass = 0.0;  ///< of a metre of cord beyond that of the rubber in its place [kg/m]
+  std::optional<Lift> lift;              ///< then angle and spacing are those on the drum
   Curve lines;
+  /// (lines) of a metre of cord beyond that of the rubber in its place; empty: 0 [kg/m]
+  std::vector<double> excess_mass;
 };
 
 /// A flat end of the enclosed volume, from a node of the section to the axle.

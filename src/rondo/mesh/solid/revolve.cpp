@@ -20,6 +20,25 @@ struct Lines {
   std::vector<std::vector<int>> number;  ///< [line][node of the section] in the sector; -1: none
 };
 
+/// The free nodes of the contact surface, each with its share of the adjacent faces.
+void find_candidates(std::string_view contact, Mesh& mesh) {
+  mesh.boundary.clear();
+  mesh.tributary.clear();
+  const auto surface = std::ranges::find(mesh.surfaces, contact, &Surface::name);
+  if (surface == mesh.surfaces.end()) return;
+  std::vector<double> area(mesh.n_nodes(), 0.0);
+  for (const Face& face : surface->faces) {
+    const std::array<Vec3, 4> share = face_shares(face_corners(mesh, face));
+    for (std::size_t i = 0; i < 4; ++i) area[at(face[i])] += norm(share[i]);
+  }
+  for (const int node : mesh.clamped) area[at(node)] = 0.0;
+  for (std::size_t i = 0; i < area.size(); ++i)
+    if (area[i] > 0.0) {
+      mesh.boundary.push_back(static_cast<int>(i));
+      mesh.tributary.push_back(area[i]);
+    }
+}
+
 class Sweep {
  public:
   Sweep(const Mesh& section, const Columns& columns)
@@ -34,7 +53,7 @@ class Sweep {
     add_nodes(mesh);
     add_hexahedra(mesh);
     add_surfaces(mesh);
-    add_candidates(contact, mesh);
+    find_candidates(contact, mesh);
     return mesh;
   }
 
@@ -134,23 +153,6 @@ class Sweep {
     }
   }
 
-  /// Adds the free nodes of the contact surface, each with its share of the adjacent faces.
-  void add_candidates(std::string_view contact, Mesh& mesh) const {
-    const auto surface = std::ranges::find(mesh.surfaces, contact, &Surface::name);
-    if (surface == mesh.surfaces.end()) return;
-    std::vector<double> area(mesh.n_nodes(), 0.0);
-    for (const Face& face : surface->faces) {
-      const std::array<Vec3, 4> share = face_shares(face_corners(mesh, face));
-      for (std::size_t i = 0; i < 4; ++i) area[at(face[i])] += norm(share[i]);
-    }
-    for (const int node : mesh.clamped) area[at(node)] = 0.0;
-    for (std::size_t i = 0; i < area.size(); ++i)
-      if (area[i] > 0.0) {
-        mesh.boundary.push_back(static_cast<int>(i));
-        mesh.tributary.push_back(area[i]);
-      }
-  }
-
   const Mesh& section_;
   const Columns& columns_;
   EdgeTable edges_;
@@ -158,6 +160,15 @@ class Sweep {
 };
 
 }  // namespace
+
+void move_nodes(Mesh& mesh, std::span<const Vec3> by, std::string_view contact) {
+  RONDO_DEMAND(mesh.is_solid() && by.size() == mesh.n_nodes(), by.size(), mesh.n_nodes());
+  for (std::size_t i = 0; i < by.size(); ++i) {
+    mesh.coordinates[i] += by[i].plane();
+    mesh.axial[i] += by[i].z;
+  }
+  find_candidates(contact, mesh);
+}
 
 std::vector<Edge> rolling_edges(const Mesh& mesh, std::string_view contact) {
   std::vector<Edge> edges;

@@ -119,6 +119,10 @@ Mesh make_section(const Wheel& wheel) {
   }
   for (int j = 0; j < across; ++j) mesh.clamped.push_back(node(0, j));
   mesh.curves = {std::move(rim), std::move(tread), std::move(left), std::move(right)};
+  for (int k = 1; k < layers; ++k) {
+    Curve& line = mesh.curves.emplace_back(Curve{"layer-" + std::to_string(k), {}});
+    for (int j = 0; j + 1 < across; ++j) line.edges.push_back({node(k, j), node(k, j + 1)});
+  }
   return mesh;
 }
 

@@ -4,9 +4,11 @@
 #pragma once
 #include <array>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
+#include "rondo/core/vec3.hpp"
 #include "rondo/mesh/disk.hpp"
 #include "rondo/mesh/mesh.hpp"
 
@@ -44,7 +46,8 @@ struct Columns {
 
 /// The section as a plane mesh, where x is r and y is z, with counter-clockwise cells. Its curves:
 /// "rim" is clamped, "tread" is the top, "left" and "right" are the sides at the least and the
-/// largest z. It has no candidates. Nodes are numbered layer after layer outwards.
+/// largest z, "layer-K" the line between its layers K and K + 1, counted from 1 at the rim, in the
+/// sense of growing z. It has no candidates. Nodes are numbered layer after layer outwards.
 Mesh make_section(const Wheel& wheel);
 
 /// The columns of a generated wheel; the cells left out are those of its tread and its grooves.
@@ -58,6 +61,10 @@ Columns columns_of(const Wheel& wheel, const Mesh& section);
 /// @param contact name of a curve of the section
 /// @pre r > 0 in the section, which has no triangles.
 Mesh revolve(const Mesh& section, const Columns& columns, std::string_view contact);
+
+/// Moves the nodes and finds the tributaries again. @param by (n) [m]
+/// @param contact surface of the candidates
+void move_nodes(Mesh& mesh, std::span<const Vec3> by, std::string_view contact);
 
 /// Edges around the wheel between candidates, each once, with the axle on the left of the edge.
 /// @param contact surface of the candidates. @pre the mesh was made by revolve()

@@ -80,8 +80,10 @@ Sparse tangent(const SectorEnergy& wheel, const SectorState& state, double spin_
                         softening(wheel, spin_squared), rows);
 }
 
+}  // namespace
+
 /// Newton's method at one share of the loads, from the equilibrium at another.
-class Step {
+class InflationSteps::Step {
  public:
   Step(const SectorEnergy& wheel, const InflationLoads& loads)
       : wheel_(wheel), loads_(loads), rows_(free_rows(wheel)) {}
@@ -165,31 +167,38 @@ class Step {
   bool analysed_ = false;
 };
 
-}  // namespace
-
-Inflation inflate(const SectorEnergy& wheel, const InflationLoads& loads) {
+InflationSteps::InflationSteps(const SectorEnergy& wheel, const InflationLoads& loads)
+    : step_(std::make_unique<Step>(wheel, loads)), parts_(loads.steps), size_(1.0 / loads.steps) {
   RONDO_DEMAND(
       loads.steps >= 1 && (loads.mounting.empty() || loads.mounting.size() == wheel.n_nodes()),
       loads.steps, loads.mounting.size());
-  Inflation out;
-  out.u.resize(wheel.n_nodes());
-  Step step(wheel, loads);
-  double size = 1.0 / loads.steps;
-  int halvings = 0;
-  while (out.share < 1.0) {
-    const double to = out.share + size > 1.0 - 1e-9 ? 1.0 : out.share + size;
-    const int turns = step.go_to(to, out);
-    if (turns == 0) {
-      if (++halvings > most_halvings) return out;
-      size *= 0.5;
-      continue;
-    }
-    out.share = to;
-    out.turns.push_back(turns);
-    size = std::min(2.0 * size, 1.0 / loads.steps);
+  now_.u.resize(wheel.n_nodes());
+}
+InflationSteps::~InflationSteps() = default;
+
+bool InflationSteps::advance() {
+  RONDO_DEMAND(!now_.found, now_.share);
+  constexpr double same = 1e-9;
+  const double part = std::floor(now_.share * parts_ + same) + 1.0;  // the next whole one
+  for (; halvings_ <= most_halvings; size_ *= 0.5, ++halvings_) {
+    const bool whole = now_.share + size_ > part / parts_ - same;
+    const double to = whole ? part / parts_ : now_.share + size_;
+    const int turns = step_->go_to(to, now_);
+    if (turns == 0) continue;
+    now_.share = to;
+    now_.turns.push_back(turns);
+    now_.found = whole && part >= parts_;
+    size_ = std::min(2.0 * size_, 1.0 / parts_);
+    return true;
   }
-  out.found = true;
-  return out;
+  return false;
+}
+
+Inflation inflate(const SectorEnergy& wheel, const InflationLoads& loads) {
+  InflationSteps steps(wheel, loads);
+  while (!steps.now().found && steps.advance()) {
+  }
+  return steps.now();
 }
 
 std::optional<int> unstable_harmonic(const SectorEnergy& wheel, const SectorState& state,

@@ -2,6 +2,7 @@
 /// @file  Equilibrium of a wheel under the pressure of its air, its spin and the places of its rim,
 /// at finite strain; all sectors deform alike. Newton's method in steps of the loads.
 #pragma once
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,6 +27,30 @@ struct Inflation {
   fem::finite::SectorState state;       ///< at that share
 };
 
+/// The equilibria on the way to the loads, one after the other.
+class InflationSteps {
+ public:
+  /// Both must outlive it.
+  InflationSteps(const fem::finite::SectorEnergy& wheel, const InflationLoads& loads);
+  ~InflationSteps();
+  InflationSteps(const InflationSteps&) = delete;
+  InflationSteps& operator=(const InflationSteps&) = delete;
+
+  /// Goes on to the next equilibrium, at most one of `loads.steps` equal parts. False: it was not
+  /// found, and now() is the last one.
+  [[nodiscard]] bool advance();
+  [[nodiscard]] const Inflation& now() const noexcept { return now_; }
+
+ private:
+  class Step;
+  std::unique_ptr<Step> step_;
+  int parts_ = 1;
+  double size_ = 1.0;
+  int halvings_ = 0;
+  Inflation now_;
+};
+
+/// All steps.
 [[nodiscard]] Inflation inflate(const fem::finite::SectorEnergy& wheel,
                                 const InflationLoads& loads);
 

@@ -121,10 +121,11 @@ NodeMatrix<D> RollingHarmonics<D>::compliance(std::size_t a, std::size_t b,
 template <int D>
 Eigen::VectorXcd RollingHarmonics<D>::constant_load() const {
   Eigen::VectorXcd f = Eigen::VectorXcd::Zero(n_rows());
+  const double squares = body_.spin * body_.spin - body_.rest_spin * body_.rest_spin;
   for (const RollingLayer<D>& layer : layers_)
     for (std::size_t b = 0; b < layer.rows.size(); ++b) {
       const std::size_t a = at(layer.rows[b]);
-      NodeVector<D> pull = body_.spin * body_.spin * layer.mass[b] * body_.place(layer.rows[b]);
+      NodeVector<D> pull = squares * layer.mass[b] * body_.place(layer.rows[b]);
       if constexpr (D == 3) pull[2] = 0.0;
       if (!body_.load.empty()) pull += node_vector(body_.load[a]);
       f.segment<D>(static_cast<Index>(D * a)) = pull;

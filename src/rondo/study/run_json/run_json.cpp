@@ -6,9 +6,11 @@
 #include "rondo/analysis/base/region_figures.hpp"
 #include "rondo/analysis/base/shared_members.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
+#include "rondo/analysis/build/tyre/inflation_members.hpp"
 #include "rondo/analysis/crush/crush.hpp"
 #include "rondo/analysis/crush/latin_solver.hpp"
 #include "rondo/analysis/dynamic_members.hpp"
+#include "rondo/analysis/inflation/inflation.hpp"
 #include "rondo/analysis/modes/modes_output.hpp"
 #include "rondo/analysis/reduced/wheel.hpp"
 #include "rondo/analysis/rubber_watch.hpp"
@@ -20,13 +22,14 @@ namespace rondo::study {
 
 std::vector<MemberGroup> run_json_groups() {
   return {{"all runs", joined({run_file_members(), session_members()})},
-          {"several analyses",
-           joined({shared_members(), region_members(), strain_members(), rubber_members()})},
+          {"several analyses", joined({shared_members(), region_members(), strain_members(),
+                                       rubber_members(), inflated_members()})},
           {"dynamic", dynamic_members()},
           {"reduced", wheel_members()},
           {"crush", crush_members()},
           {"latin", latin_members()},
           {"steady-rolling", steady_members()},
+          {"inflation", inflation_members()},
           {"modes", modes_members()}};
 }
 

@@ -47,7 +47,7 @@ std::string swapped(const Case& c, const MeshCase& file) {
   return fmt::format(
       "the held nodes are farther from the center than those that may touch: should \"{}\" be "
       "{}.contact and \"{}\" {}.clamped?",
-      file.clamped, table, file.contact, table);
+      fmt::join(file.clamped, "\", \""), table, file.contact, table);
 }
 
 [[noreturn]] void refuse(const Case& c, const mesh::Mesh& mesh, double depth,

@@ -53,14 +53,16 @@ void warn_of_pressures(const Case& c, const std::vector<fem::Material>& material
                        std::vector<std::string>& warnings) {
   double softest = std::numeric_limits<double>::infinity();
   for (const fem::Material& m : materials) softest = std::min(softest, m.youngs_modulus);
-  for (std::size_t k = 0; k < c.pressures.size(); ++k) {
-    const double most = c.pressures[k].pressure.largest();
-    if (most == 0.0 || most >= least_pressure || most >= least_pressure_share * softest) continue;
+  const auto look = [&](const std::string& key, double most) {
+    if (most == 0.0 || most >= least_pressure || most >= least_pressure_share * softest) return;
     warnings.push_back(
-        fmt::format("{}.value reaches {:.4g} Pa at most, {:.2g} of the softest modulus: it hardly "
+        fmt::format("{} reaches {:.4g} Pa at most, {:.2g} of the softest modulus: it hardly "
                     "deforms the body; is the pressure in Pa, not in bar or kPa?",
-                    item_of("load.pressure", k), most, most / softest));
-  }
+                    key, most, most / softest));
+  };
+  for (std::size_t k = 0; k < c.pressures.size(); ++k)
+    look(item_of("load.pressure", k) + ".value", c.pressures[k].pressure.largest());
+  if (c.inflation) look("inflation.pressure", c.inflation->pressure);
 }
 
 void warn_of_angle(const char* key, double angle, std::vector<std::string>& warnings) {

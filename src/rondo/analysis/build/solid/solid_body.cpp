@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/solid/hidden_ground.hpp"
+#include "rondo/analysis/build/tyre/inflation_members.hpp"
+#include "rondo/analysis/build/tyre/wheel_at_rest.hpp"
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
@@ -44,7 +47,7 @@ void refuse_held(const Case& c, const std::string& key, const mesh::Mesh& mesh,
       fmt::format("every node of \"{}\" is held: a pressure there has no effect", surface.name),
       c.section ? fmt::format("a curve that is not held; section.clamped = \"{}\" "
                               "holds this one",
-                              c.section->mesh.clamped)
+                              fmt::join(c.section->mesh.clamped, "\", \""))
                 : "\"tread\", \"left\" or \"right\"; for a tyre that is inflated a "
                   "[section] with a cavity");
 }
@@ -58,11 +61,18 @@ void add_ground(const Case& c, const mesh::Mesh& mesh, Model& model) {
       law_of(*c.ground), mesh.boundary, mesh.tributary, edges});
 }
 
-void make_solid_model(const Case& c, Setup& s) {
+/// -s0² M P x, a load that is always there.
+void add_pull(const WheelAtRest& rest, dynamics::SolidBody& body) {
+  if (!rest.load.empty()) body.pressures.push_back({rest.load, dynamics::Table(1.0)});
+}
+
+/// @return upper bound of ω² [1/s²]
+double make_solid_model(const Case& c, Setup& s) {
   Model& model = s.model;
+  WheelAtRest rest = wheel_at_rest(c, s.mesh, s.materials);
   model.scheme = c.time.scheme;
   model.reference = s.mesh.coordinates;
-  model.mass = fem::solid_mass(s.mesh, s.materials);
+  model.mass = std::move(rest.mass);
   model.free = fem::free_nodes(s.mesh);
   model.stiffness_operator = dynamics::StiffnessOperator::cyclic;
   model.stiffness_damping = c.damping.stiffness;
@@ -70,13 +80,16 @@ void make_solid_model(const Case& c, Setup& s) {
   add_ground(c, s.mesh, model);
   dynamics::SolidBody& body = model.solid.emplace();
   body.axial = s.mesh.axial;
-  body.sector = fem::assemble_solid_sector(s.mesh, s.materials);
+  body.sector = std::move(rest.sector);
   RONDO_DEMAND(model.mass.size() == model.n_nodes() && body.axial.size() == model.n_nodes() &&
                    body.sector.n_local() * static_cast<std::size_t>(body.sector.n_sectors) ==
                        model.free.size(),
                model.mass.size(), body.axial.size(), model.n_nodes(), body.sector.n_local(),
                body.sector.n_sectors, model.free.size());
   add_solid_pressures(c, s.mesh, body);
+  add_pull(rest, body);
+  s.inflation = std::move(rest.inflation);
+  return rest.frequencies_below;
 }
 
 /// The rim moves in its plane: what it feels of K is that of no axial displacement.
@@ -91,11 +104,11 @@ dynamics::CriticalStep step_with_solid_rim(const Model& model, const dynamics::C
   return step_with_rim(model, product, held, damping);
 }
 
-void find_solid_step(const Case& c, Setup& s) {
+void find_solid_step(const Case& c, double frequencies_below, Setup& s) {
   const Model& m = s.model;
   const dynamics::LaggedDamping damping{c.damping.stiffness, c.rim ? c.damping.mass : 0.0};
-  const dynamics::CriticalStep held = dynamics::critical_step(
-      m.solid->sector, m.mass, damping, fem::solid_eigenvalue_bound(s.mesh, s.materials));
+  const dynamics::CriticalStep held =
+      dynamics::critical_step(m.solid->sector, m.mass, damping, frequencies_below);
   s.critical_plain = held.step;
   s.critical = m.rim ? step_with_solid_rim(m, held, damping) : held;
 }
@@ -127,10 +140,10 @@ void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidB
 
 void make_solid_body(const Case& c, int threads, Setup& s) {
   RONDO_DEMAND(s.mesh.is_solid() && !s.materials.empty(), s.mesh.n_nodes(), s.materials.size());
-  make_solid_model(c, s);
+  const double frequencies_below = make_solid_model(c, s);
   check_hidden_ground(c, s);
   choose_threads(s, threads);
-  find_solid_step(c, s);
+  find_solid_step(c, frequencies_below, s);
 }
 
 std::vector<Vec2> solid_positions(const Setup& s) {
@@ -157,6 +170,8 @@ void tell_solid_figures(const Case& c, Setup& s) {
   const std::size_t local = s.model.solid->sector.n_local();
   s.figures.emplace_back("wheel", fmt::format("{} sectors of {} dofs, {:.6g} m wide",
                                               s.mesh.n_sectors, 3 * local, width_of(s.mesh)));
+  if (s.inflation)
+    for (Told& line : told_of(*s.inflation)) s.figures.push_back(std::move(line));
   if (c.motion.slip_angle.largest() != 0.0)
     s.figures.emplace_back("slip angle", range_text(c.motion.slip_angle));
   if (c.motion.camber != 0.0)

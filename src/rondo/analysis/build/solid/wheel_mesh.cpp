@@ -26,12 +26,16 @@ void set_regions(const Case& c, mesh::Mesh& section) {
     section.region.push_back(of_layer[e / across]);
 }
 
+mesh::Mesh generate_section(const Case& c) {
+  mesh::Mesh section = mesh::make_section(wheel_of(c));
+  set_regions(c, section);
+  return section;
+}
+
 mesh::Mesh generate(const Case& c) {
   demand_memory(c, n_generated_nodes(c), mesh_memory(n_generated_nodes(c)));
-  const mesh::Wheel wheel = wheel_of(c);
-  mesh::Mesh section = mesh::make_section(wheel);
-  set_regions(c, section);
-  return mesh::revolve(section, mesh::columns_of(wheel, section), "tread");
+  const mesh::Mesh section = generate_section(c);
+  return mesh::revolve(section, mesh::columns_of(wheel_of(c), section), "tread");
 }
 
 InputError section_error(const Case& c, const std::string& message, const std::string& allowed) {
@@ -76,11 +80,16 @@ void refuse_loose_parts(const Case& c, const mesh::Mesh& section) {
                    "on each part");
 }
 
-mesh::Mesh revolve_file(const Case& c, std::vector<std::string>* warnings) {
-  const mesh::Mesh section = read_mesh_file(c, warnings);
+mesh::Mesh read_section(const Case& c, std::vector<std::string>* warnings) {
+  mesh::Mesh section = read_mesh_file(c, warnings);
   refuse_triangles(c, section);
   refuse_axle(c, section);
   refuse_loose_parts(c, section);
+  return section;
+}
+
+mesh::Mesh revolve_file(const Case& c, std::vector<std::string>* warnings) {
+  const mesh::Mesh section = read_section(c, warnings);
   const std::size_t nodes = section.n_nodes() * at(c.section->sectors);
   if (nodes >= std::size_t{1} << 31)
     throw case_error(c, "section.sectors", fmt::format("the mesh would have {} nodes", nodes),
@@ -94,6 +103,11 @@ mesh::Mesh revolve_file(const Case& c, std::vector<std::string>* warnings) {
 mesh::Mesh build_wheel(const Case& c, std::vector<std::string>* warnings) {
   RONDO_DEMAND(is_solid(c), c.file.string());
   return c.section ? revolve_file(c, warnings) : generate(c);
+}
+
+mesh::Mesh build_section(const Case& c, std::vector<std::string>* warnings) {
+  RONDO_DEMAND(is_solid(c), c.file.string());
+  return c.section ? read_section(c, warnings) : generate_section(c);
 }
 
 }  // namespace rondo::study

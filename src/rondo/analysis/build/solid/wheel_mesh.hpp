@@ -14,4 +14,8 @@ namespace rondo::study {
 /// or beyond, or with a part that nothing holds
 mesh::Mesh build_wheel(const Case& c, std::vector<std::string>* warnings);
 
+/// The section alone, a plane mesh in r and z, with the nodes that the wheel has in each sector, in
+/// the same order. @throws as build_wheel()
+mesh::Mesh build_section(const Case& c, std::vector<std::string>* warnings);
+
 }  // namespace rondo::study

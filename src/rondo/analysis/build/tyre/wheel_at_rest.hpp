@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The state about which a wheel in three dimensions is linear: undeformed, or inflated.
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondo/analysis/build/tyre/inflated_wheel.hpp"
+#include "rondo/fem/sector_stiffness.hpp"
+
+namespace rondo::study {
+
+struct WheelAtRest {
+  std::vector<double> mass;  ///< (n) [kg]
+  fem::SolidSector sector;
+  double frequencies_below = 0.0;  ///< upper bound of ω² [1/s²]
+  /// (n_local) the rest of the forces on the nodes of a row, which K u does not have: -s0² m P x of
+  /// an inflated wheel, balanced by its spin s0. In the frame of the sector. Empty: none [N]
+  std::vector<Vec3> load;
+  std::optional<InflationFigures> inflation;  ///< none: undeformed
+};
+
+/// Of an inflated wheel the mesh is moved to its equilibrium, and the materials become those of
+/// small strain, which measures of the change from there use. @throws InputError
+[[nodiscard]] WheelAtRest wheel_at_rest(const Case& c, mesh::Mesh& mesh,
+                                        std::vector<fem::Material>& materials);
+
+}  // namespace rondo::study
