@@ -10,6 +10,10 @@
 #include "rondo/fem/finite/cord_face.hpp"
 #include "rondo/fem/finite/enclosed_volume.hpp"
 #include "rondo/fem/finite/rubber_hexahedron.hpp"
+#include "rondo/fem/finite/sector_energy.hpp"
+#include "rondo/fem/finite/tangent_sector.hpp"
+#include "rondo/fem/solid/solid_sector.hpp"
+#include "rondo/mesh/solid/wheel.hpp"
 
 namespace rondo::fem::finite {
 namespace {
@@ -246,6 +250,146 @@ TEST(EnclosedVolume, OfACappedCylinder) {
               cap_volume(a, b, -1.0).value;
   }
   EXPECT_NEAR(volume, length * 0.5 * n * r * r * std::sin(angle), 1e-15);
+}
+
+namespace {
+
+Rubber soft() {
+  Rubber r;
+  r.c10 = 0.5;
+  r.bulk_modulus = 10.0;
+  return r;
+}
+
+/// A line of cords along a flat disk, from r = 0.2 to 0.3 in `n` edges, held, of no rubber.
+SectorEnergy flat_ply(int n, const Cords& ply, int n_sectors) {
+  SweptSection s;
+  s.n_sectors = n_sectors;
+  for (int i = 0; i <= n; ++i) s.place.push_back({0.2 + 0.1 * i / n, 0.0});
+  s.held.assign(3 * s.place.size(), 1);
+  s.cords = {ply};
+  for (int i = 0; i < n; ++i) s.cords[0].lines.push_back({i, i + 1});
+  s.cords[0].excess_mass.assign(static_cast<std::size_t>(n), 1.0);
+  return SectorEnergy(s);
+}
+
+}  // namespace
+
+/// The length of all cords is N asin(c r) / c between the radii, c = cos α_g / (r_g (1 + e)); N is
+/// their number around.
+TEST(Cords, LiftedFromADrumKeepTheirNumber) {
+  Cords ply;
+  ply.law.stiffness = 1.0;
+  ply.angle = 0.9;
+  ply.spacing = 1e-3;
+  ply.lift = {0.24, 0.05};
+  const double c = std::cos(0.9) / (0.24 * 1.05);
+  const double number = 2.0 * 3.14159265358979 * 0.24 * std::sin(0.9) / 1e-3;
+  const double length = number * (std::asin(c * 0.3) - std::asin(c * 0.2)) / c;
+  double before = 0.0;
+  for (const int fine : {1, 2}) {
+    const SectorEnergy wheel = flat_ply(10 * fine, ply, 90 * fine);
+    double mass = 0.0;
+    for (const double m : wheel.mass()) mass += 90.0 * fine * m;
+    const double error = std::abs(mass / length - 1.0);
+    EXPECT_LT(error, 1e-3);
+    if (fine == 2) {
+      EXPECT_NEAR(before / error, 4.0, 0.4);
+    }
+    before = error;
+    for (const auto& p : wheel.cords(0, std::vector<Vec3>(wheel.n_nodes())))
+      EXPECT_NEAR(std::cos(p.angle), c * norm(p.place.plane()), 1e-12);
+  }
+}
+
+/// A channel between two radii over a length, closed by the ring at its inner ends.
+TEST(EnclosedVolume, CavityOfAChannel) {
+  SweptSection s;
+  s.n_sectors = 30;
+  s.place = {{0.2, 0.0}, {0.3, 0.0}, {0.3, 0.1}, {0.2, 0.1}};
+  s.held.assign(12, 1);
+  s.liner = {{0, 1}, {1, 2}, {2, 3}};
+  std::vector<Vec3> u(4);
+  for (Vec3& v : u) v.z = 0.7;  // wherever it is along the axle
+  const double polygon = 15.0 * std::sin(2.0 * 3.14159265358979 / 30.0);
+  const std::optional<double> found = SectorEnergy(s).cavity(u);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(std::abs(*found), polygon * (0.3 * 0.3 - 0.2 * 0.2) * 0.1, 1e-14);
+  s.liner = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  EXPECT_FALSE(SectorEnergy(s).cavity(u));
+}
+
+TEST(FiniteRubber, LargestStretch) {
+  SweptSection s;
+  s.n_sectors = 12;
+  s.place = {{0.2, 0.0}, {0.3, 0.0}, {0.3, 0.1}, {0.2, 0.1}};
+  s.quads = {{{0, 1, 2, 3}, 0}};
+  s.rubbers = {soft()};
+  s.densities = {1.0};
+  s.held.assign(12, 1);
+  std::vector<Vec3> u(4);
+  u[2].z = u[3].z = 0.1 * 0.25;  // along the axle by a quarter
+  EXPECT_NEAR(SectorEnergy(s).largest_stretch(u), 1.25, 1e-12);
+}
+
+/// K u of the revolved wheel is what the section's blocks say, sector by sector; and symmetric to
+/// the last bit.
+TEST(TangentSector, IsTheTangentOfTheWheel) {
+  mesh::Mesh plane;
+  plane.coordinates = {{0.2, 0.0}, {0.2, 0.1}, {0.25, 0.01}, {0.26, 0.1}, {0.3, 0.0}, {0.31, 0.11}};
+  plane.cells = {{0, 2, 3, 1}, {2, 4, 5, 3}};
+  plane.clamped = {0, 1};
+  plane.curves = {{"tread", {{4, 5}}}};
+  const mesh::Mesh wheel = mesh::revolve(plane, {12, 1, {}}, "tread");
+  SweptSection s;
+  s.n_sectors = 12;
+  s.place = plane.coordinates;
+  s.quads = {{plane.cells[0], 0}, {plane.cells[1], 0}};
+  s.rubbers = {soft()};
+  s.densities = {1.0};
+  s.held.assign(18, 0);
+  for (std::size_t i = 0; i < 6; ++i) s.held[i] = 1;
+  Cords ply;
+  ply.law.stiffness = 2.0;
+  ply.angle = 0.4;
+  ply.spacing = 0.01;
+  ply.lines = {{2, 3}};
+  s.cords = {ply};
+  const SectorEnergy energy(s);
+  const SectorState state = energy.state(at_random(6, 0.01, 3), {0.0, 0.0});
+  const SolidSector k = tangent_sector(wheel, state);
+  std::vector<Vec3> u = at_random(wheel.n_nodes(), 1.0, 5), out(u.size());
+  for (const int node : wheel.clamped) u[static_cast<std::size_t>(node)] = {};
+  apply(k, u, out);
+  const auto local = [&](const std::vector<Vec3>& v, int sector) {
+    Eigen::VectorXd w(18);
+    for (int a = 0; a < 6; ++a) {
+      const double angle =
+          2.0 * 3.14159265358979323846 * ((sector + 12) % 12) / 12.0 - 0.5 * 3.14159265358979323846;
+      const Vec3 turned =
+          rotation(-angle) * v[static_cast<std::size_t>((sector + 12) % 12 * 6 + a)];
+      w.segment<3>(3 * a) << turned.x, turned.y, turned.z;
+    }
+    return w;
+  };
+  for (const int sector : {0, 5, 11}) {
+    const Eigen::VectorXd expected = state.here * local(u, sector) +
+                                     state.next * local(u, sector + 1) +
+                                     state.next.transpose() * local(u, sector - 1);
+    const Eigen::VectorXd found = local(out, sector);
+    for (Eigen::Index i = 6; i < 18; ++i)
+      EXPECT_NEAR(found[i], expected[i], 1e-12 * expected.cwiseAbs().maxCoeff()) << i;
+  }
+  for (std::size_t a = 0; a < k.n_local(); ++a)
+    for (const SolidSector::Entry& e : k.row(a)) {
+      const auto back = k.row(static_cast<std::size_t>(e.column));
+      const auto same = std::ranges::find_if(back, [&](const SolidSector::Entry& other) {
+        return other.column == static_cast<int>(a) && other.shift == -e.shift;
+      });
+      ASSERT_NE(same, back.end());
+      for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(e.block[3 * c + r], same->block[3 * r + c]);
+    }
 }
 
 }  // namespace rondo::fem::finite

@@ -99,14 +99,15 @@ std::string instability(const InflatedWheel& wheel, const statics::Inflation& no
   const std::optional<int> waves =
       statics::unstable_harmonic(wheel.energy(), now.state, spin_squared);
   if (!waves) return {};
-  return fmt::format(
-      "the equilibrium at {:.6g} Pa is not stable: the wheel buckles in {} waves around it",
-      now.share * wheel.loads().sector.pressure, *waves);
+  const std::string shape =
+      *waves == 0 ? "in all sectors alike" : fmt::format("in {} waves around the axle", *waves);
+  return fmt::format("the equilibrium at {:.6g} Pa is not stable: the wheel buckles {}",
+                     now.share * wheel.loads().sector.pressure, shape);
 }
 
 statics::Inflation equilibrium_of(const Case& c, const InflatedWheel& wheel) {
   statics::Inflation found = statics::inflate(wheel.energy(), wheel.loads());
-  const char* key = c.inflation->pressure > 0.0 ? "inflation.pressure" : "inflation";
+  constexpr const char* key = "inflation";
   if (!found.found) throw case_error(c, key, no_equilibrium(wheel, found), instead);
   if (const std::string text = instability(wheel, found); !text.empty())
     throw case_error(c, key, text,
