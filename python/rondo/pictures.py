@@ -97,6 +97,19 @@ def _convergence(run: Run, ax: Axes | None = None) -> Axes:
     return plot_convergence(run, ax)
 
 
+def _section(run: Run, time: float | None = None, ax: Axes | None = None,
+             deformation: float = 1.0) -> Axes:
+    """The section of an inflated wheel before and after; see rondo.plots.solid.section.plot_section."""
+    from .plots.solid.section import plot_section
+    return plot_section(run, time, ax, deformation)
+
+
+def _cords(run: Run, ax: Axes | None = None, over: str = "arc") -> Axes:
+    """Force of a cord along each layer of an inflated wheel; see rondo.plots.solid.cords.plot_cords."""
+    from .plots.solid.cords import plot_cords
+    return plot_cords(run, ax, over)
+
+
 def _modes_of_run(run: Run, field: str, frame: str = "co-rotating", count: int = 6) -> Figure:
     """The first modes of a POD of this run."""
     return _modes(run.pod(field, frame), count)
@@ -211,6 +224,7 @@ def attach() -> None:
     Run.plot_spectrum, Run.plot_modes, Run.animate = _spectrum, _modes_of_run, _animate
     Run.plot_contact, Run.plot_contact_map, Run.plot_psd = _contact, _contact_map, _psd
     Run.plot_wheel, Run.plot_footprint, Run.plot_convergence = _wheel, _footprint, _convergence
+    Run.plot_section, Run.plot_cords = _section, _cords
     Pod.plot_spectrum, Pod.plot_modes = _decay, _modes
     Modes.plot_campbell = _campbell
     Sweep.plot_main_effects, Sweep.plot_map = _main_effects, _map

@@ -21,8 +21,8 @@ class Solution:
     """What an analysis found, n nodes and t snapshots, as arrays in memory; names and frames are
     those of a run.
 
-    info: as run.json; mesh; history; times, times_velocity (t,) [s], of a crush the share of its
-    load; angle, angle_velocity (t,) [rad]; center (t, 2) [m], (t, 3) of a wheel in three
+    info: as run.json; mesh; history; times, times_velocity (t,) [s], of a crush or an inflation the
+    share of its load; angle, angle_velocity (t,) [rad]; center (t, 2) [m], (t, 3) of a wheel in three
     dimensions; displacement, velocity (t, n, 2) or (t, n, 3); contact_force (t, nb, 2) or
     (t, nb, 3) at mesh.boundary, as /contact/force of results.h5: normal, tangential along J n, which
     on flat ground points to -x [N/m]; None where nothing can be touched."""
@@ -51,7 +51,7 @@ class Solution:
 
     @property
     def analysis(self) -> str:
-        """ "dynamic", "crush", "steady-rolling"."""
+        """ "dynamic", "crush", "steady-rolling", "inflation"."""
         return str(self.info["analysis"])
 
     @property

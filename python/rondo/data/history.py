@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""history.csv: forces, contact and energies against time."""
+"""history.csv: forces, contact and energies against time; of an inflation its figures against the share
+of the loads."""
 from __future__ import annotations
 
 import pathlib
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 FORCES = ("force_x", "force_y", "force_lateral", "torque", "moment_aligning",
           "moment_overturning")  # of the ground on the body
+TIME, SHARE = "time_s", "load_share"  # what rows go over; the latter of an inflation
 
 
 def between(from_time: float | None, to_time: float | None, unit: str = "s") -> str:
@@ -50,7 +52,7 @@ class History(Mapping[str, np.ndarray]):
         except (KeyError, TypeError) as reason:
             raise Error(f"{path.parent / 'run.json'}: damaged: its columns: {reason!r}") from None
         if crush:
-            self.units["time_s"] = "1"  # also where run.json does not say so
+            self.units[TIME] = "1"  # also where run.json does not say so
 
     def __getitem__(self, name: str) -> np.ndarray:
         found = find_name(name, self._columns)
@@ -70,15 +72,24 @@ class History(Mapping[str, np.ndarray]):
         return len(self._columns)
 
     def __repr__(self) -> str:
-        return f"History({self.path}, {len(self['time_s'])} rows: {', '.join(self._columns)})"
+        return f"History({self.path}, {self.n_rows} rows: {', '.join(self._columns)})"
 
     def _repr_html_(self) -> str:
         return history_html(self)
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A pandas.DataFrame: a row for each interval, index "time_s"; attrs["units"] of the
-        columns."""
-        return frame_of(self._columns, self.units, "history.to_pandas()", "time_s")
+        """A pandas.DataFrame: a row for each interval, index "time_s", of an inflation "load_share";
+        attrs["units"] of the columns."""
+        return frame_of(self._columns, self.units, "history.to_pandas()", self.abscissa)
+
+    @property
+    def abscissa(self) -> str:
+        """What rows go over: "time_s"; of an inflation "load_share"."""
+        return SHARE if SHARE in self._columns else TIME
+
+    @property
+    def n_rows(self) -> int:
+        return len(self[self.abscissa])
 
     @property
     def names(self) -> list[str]:
@@ -87,7 +98,7 @@ class History(Mapping[str, np.ndarray]):
     def check_end(self, end: float | None = None, rows: int | None = None) -> None:
         """That the history of a run that is done reaches its end, the last time [s] or the number
         of rows: an error where the file has lost some."""
-        time = self["time_s"]
+        time = self[self.abscissa]
         if rows is not None and len(time) != rows:
             raise Error(f"{self.path}: damaged: {len(time)} rows, but run.json says that the run "
                         f"is done, with {rows}")
@@ -95,6 +106,12 @@ class History(Mapping[str, np.ndarray]):
         if end is not None and abs(last - end) > 1e-9 * abs(end):
             raise Error(f"{self.path}: damaged: it ends at {last:g} s, but run.json says that the "
                         f"run is done, to {end:g} s")
+
+    def need_time(self, what: str) -> None:
+        """An error of an inflation: what is of a course in time only."""
+        if self.abscissa == SHARE:
+            raise Error(f"{self.path}: an inflation has no {what}: its rows are equilibria, over the "
+                        f"column {SHARE}")
 
     def need_ground(self, name: str) -> None:
         """An error where a column is of the ground's forces and there is no ground."""
@@ -105,7 +122,8 @@ class History(Mapping[str, np.ndarray]):
     def window(self, from_time: float | None = None, to_time: float | None = None) -> np.ndarray:
         """Mask (rows,) of the rows whose whole interval is between the two times [s]; None: no
         bound. At least one, or an error."""
-        end = self["time_s"]
+        self.need_time("rows between two times")
+        end = self[TIME]
         begin = end if self.instants else np.append(0.0, end)[:-1]
         chosen: np.ndarray = np.ones(len(end), dtype=bool)
         if from_time is not None:
@@ -123,8 +141,9 @@ class History(Mapping[str, np.ndarray]):
         forces and torque are the means. Of steady rolling over the places of a sector's pass."""
         if self.crush:
             raise Error(f"{self.path}: a crush has no means over time")
+        self.need_time("means over time")
         self.need_ground(name)
         chosen = self.window(from_time, to_time)
-        time = self["time_s"]
+        time = self[TIME]
         spans = np.ones(len(time)) if self.instants else np.diff(time, prepend=0.0)
         return float(np.average(self[name][chosen], weights=spans[chosen]))

@@ -60,7 +60,7 @@ def history_html(history: Any) -> str:
         values = history[name]
         ends = [float(f(values)) if len(values) else "" for f in (np.min, np.max)]
         rows.append((name, history.units.get(name, ""), *ends, values[-1] if len(values) else ""))
-    return table(f"{history.path}: {len(history['time_s'])} rows",
+    return table(f"{history.path}: {history.n_rows} rows",
                  ("column", "unit", "least", "largest", "last"), rows)
 
 

@@ -13,6 +13,7 @@ import numpy as np
 from .arrays import LazyArray
 from .contact import Contact, Crush
 from .convergence import Convergence
+from .cords import Cords
 from .errors import STATUS, Error, UnfinishedRunError, unknown
 from .files import check_format, opened, read_case, read_json, require
 from .history import History
@@ -22,6 +23,7 @@ from .mesh import Mesh, read_mesh
 from .names import frame_named
 from .pod import Pod, Pods
 from .rigid import Rigid, rigid_motion
+from .section import Section, section_of
 from .solid import ground_axes, turned_about_axle
 
 if TYPE_CHECKING:
@@ -47,8 +49,8 @@ class Run:
     """What a run left, n nodes and t complete snapshots.
 
     directory; info: run.json; case: case.toml; times, times_velocity: (t,) [s], of a crush the
-    share of its depth; angle, angle_velocity: (t,) of the co-rotating frame at these times [rad];
-    center: (t, 2) in the fixed frame [m]; mesh."""
+    share of its depth, of an inflation that of its loads; angle, angle_velocity: (t,) of the
+    co-rotating frame at these times [rad]; center: (t, 2) in the fixed frame [m]; mesh."""
 
     # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
     plot_field: Callable[..., Axes]
@@ -62,6 +64,8 @@ class Run:
     plot_wheel: Callable[..., Figure]
     plot_footprint: Callable[..., Figure]
     plot_convergence: Callable[..., Axes]
+    plot_section: Callable[..., Axes]
+    plot_cords: Callable[..., Axes]
     animate: Callable[..., pathlib.Path]
     report: Callable[..., pathlib.Path]
 
@@ -117,6 +121,12 @@ class Run:
         return self.analysis == "crush"
 
     @property
+    def is_inflation(self) -> bool:
+        """Whether it is of a wheel that is brought into equilibrium under its air, and no more: its
+        snapshots and rows are equilibria."""
+        return self.analysis == "inflation"
+
+    @property
     def is_solid(self) -> bool:
         """Whether the body is a wheel in three dimensions: vectors have three components, forces
         are in N, energies in J."""
@@ -132,6 +142,12 @@ class Run:
         if self.is_solid:
             raise Error(f"{self.directory}: {what} is of plane bodies, and this is a wheel in three "
                         f"dimensions: {instead}")
+
+    def need_inflation(self, what: str) -> None:
+        """An error of other runs."""
+        if not self.is_inflation:
+            raise Error(f'{self.directory}: no {what}: it is of analysis.kind = "inflation", and this run '
+                        f'has "{self.analysis}"')
 
     @property
     def camber(self) -> float:
@@ -159,8 +175,8 @@ class Run:
 
     @property
     def time_unit(self) -> str:
-        """Of times: "s", or "1" for the share of the depth of a crush."""
-        return "1" if self.is_crush else "s"
+        """Of times: "s", or "1" for the share of the depth of a crush, of the loads of an inflation."""
+        return "1" if self.is_crush or self.is_inflation else "s"
 
     @property
     def n_snapshots(self) -> int:
@@ -192,6 +208,8 @@ class Run:
     def spin(self) -> float:
         """Angular velocity of the rim at the end [rad/s]; > 0 rolls towards +x; 0 in a crush and
         where nothing is held."""
+        if self.is_inflation:
+            return float(self.case["inflation"].get("spin", 0.0))
         if self.is_crush or "angular_velocity" not in self.case["motion"]:
             return 0.0
         given = self.case["motion"]["angular_velocity"]
@@ -322,7 +340,8 @@ class Run:
         return np.average(self.position(k), axis=0, weights=self.mesh.mass)
 
     def index(self, time: float) -> int:
-        """The snapshot nearest to a time [s] (of a crush: share of the depth)."""
+        """The snapshot nearest to a time [s] (of a crush: share of the depth, of an inflation: of the
+        loads)."""
         self.need_snapshots()
         first, last = self.times[0], self.times[-1]
         spacing = np.diff(self.times).max() if self.n_snapshots > 1 else 0.0
@@ -367,15 +386,29 @@ class Run:
         history = History(self.directory / "history.csv", self.is_crush, "ground" in self.case,
                           self.info.get("columns", ()), instants=self.is_steady)
         if self.status == "done":
-            increments = self.info.get("increments_done") if self.is_crush else None
+            solved = (self.info.get("increments_done") if self.is_crush else
+                      self.info.get("equilibria") if self.is_inflation else None)
             history.check_end(None if self.is_crush else self.info.get("end_time"),
-                              None if increments is None else increments + 1)
+                              None if solved is None else solved + 1)
         return history
 
     @cached_property
     def convergence(self) -> Convergence:
         """convergence.csv of a crush by LATIN, a row for each iteration; an error of other runs."""
         return Convergence(self.directory, self.case.get("analysis", {}))
+
+    @cached_property
+    def section(self) -> Section:
+        """The section of an inflated wheel, before and at each snapshot; an error of other runs."""
+        self.need_inflation("section of an inflated wheel")
+        self.need_snapshots()
+        return section_of(self.mesh, self.displacement)
+
+    @cached_property
+    def cords(self) -> Cords:
+        """cords.csv of an inflation: forces, angles and stretches along each layer of cords, under the
+        loads reached; an error where there are none."""
+        return Cords(self.directory, self.case)
 
     def to_xarray(self, names: Iterable[str] | None = None) -> Any:
         """An xarray.Dataset of fields, read when asked for; names: those of field(), and "force",

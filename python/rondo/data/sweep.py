@@ -135,7 +135,7 @@ class Sweep:
 
     @property
     def analysis(self) -> str:
-        """ "dynamic", "crush" or "steady-rolling"."""
+        """ "dynamic", "crush", "steady-rolling" or "inflation"."""
         return str(self.info.get("analysis"))
 
     @property

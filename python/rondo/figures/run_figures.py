@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The figures of any run: fields at three times, contact, forces, the wheel, energies, spectra,
-modes of its PODs; of steady rolling fields and footprint."""
+modes of its PODs; of steady rolling fields and footprint; of an inflation section and cords."""
 from __future__ import annotations
 
 import os
@@ -49,7 +49,7 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
     history = run.history
     if run.is_steady and run.pitches and not run.is_solid:
         keep("forces", pass_forces(run))
-    if len(history["time_s"]) and not run.is_steady:  # without a course in time
+    if history.n_rows and not (run.is_steady or run.is_inflation):  # without a course in time
         keep("energy", curves.plot_energy(run).figure)
         if run.has_rim:
             keep("wheel", plot_wheel(run))
@@ -70,12 +70,20 @@ def draw_run(run: Run, folder: str | os.PathLike[str]) -> list[pathlib.Path]:
 
 
 def solid_figures(run: Run) -> Iterator[tuple[str, Figure]]:
-    """Of a wheel in three dimensions: surface, contact, forces with the lateral one, moments."""
+    """Of a wheel in three dimensions: section and cords of an inflation, surface, contact, forces with
+    the lateral one, moments."""
     from ..plots.solid.footprint import last_contact
     from ..plots.solid.footprint import plot_footprint as plot_solid
     from ..plots.solid.surface import plot_surface
 
     touches = run.contact is not None and len(run.contact.rows["time_s"]) > 0
+    if run.is_inflation:
+        if run.n_snapshots:
+            yield "section", run.plot_section().figure
+        if run.case.get("cords"):
+            yield "history", curves.plot_history(run).figure
+            if (run.directory / "cords.csv").exists():  # not there before the first equilibrium
+                yield "cords", run.plot_cords().figure
     if run.n_snapshots:
         last = float(run.times[-1])
         for quantity in ("displacement", "von_mises"):

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 FIGURES = ("force_x_mean", "force_y_mean", "force_y_fluctuation", "contact_length_mean_m",
            "friction_power", "force_x", "force_y", "contact_length_m", "pressure_max_pa",
            "rolling_resistance", "force_lateral_mean", "moment_aligning_mean", "force_lateral",
-           "moment_aligning")
+           "moment_aligning", "outer_radius_m", "width_m", "cord_force_max_n", "cord_force_min_n")
 
 
 def draw_sweep(sweep: Sweep, folder: str | os.PathLike[str], figures: Sequence[str] = (),

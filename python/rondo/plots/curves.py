@@ -43,24 +43,29 @@ PITCHES: dict[str, Any] = {"color": "0.75", "linewidth": 0.8}
 NODES: dict[str, Any] = {"color": style.VERMILLION, "linewidth": 0.8, "linestyle": (0, (2, 2))}
 
 MIN_ROWS = 16  # for a spectrum
+NO_COURSE = "course in time, and no spectrum"  # of an inflation
 ROUND_OFF = 1e-13  # size over that of the energy of a part of the ledger that is zero
 FLOOR = 1e-18  # of the residual's axis
 
 
 def _abscissa(run: Run) -> tuple[np.ndarray, str]:
-    """What a history is drawn over, (rows,), and its label: time, or the depth of a crush."""
+    """What a history is drawn over, (rows,), and its label: time, the depth of a crush, or the share
+    of the loads of an inflation."""
     if run.is_crush:
         return run.history["depth_m"] * 1e3, "depth (mm)"
+    if run.is_inflation:
+        return run.history["load_share"], f"{column_label('load_share')} (–)"
     return run.history["time_s"] * 1e3, "time (ms)"
 
 
 @style.paper()
 def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
-    """Columns of the history over time, of a crush over depth; without any, the forces of the
-    ground on the body, or the energies where there is no ground. Columns in one axes have one
+    """Columns of the history over time, of a crush over depth, of an inflation over the share of the
+    loads; without any, the forces of the ground on the body, the energies where there is no ground, and
+    of an inflation the extremes of the forces of cords, or the outer radius. Columns in one axes have one
     unit."""
     history = run.history
-    names = columns or (("force_y", "force_x") if history.ground else ("kinetic", "strain"))
+    names = columns or _usual(run)
     for name in names:
         history.need_ground(name)
     x, x_label = _abscissa(run)
@@ -81,9 +86,16 @@ def plot_history(run: Run, *columns: str, ax: Axes | None = None) -> Axes:
         ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=min(len(names), 3))
     steady_scale(ax, np.concatenate(values) * factor, unit)
     ax.set_xlabel(x_label)
-    if len(x):
+    if len(x) and x[-1] > min(x[0], 0.0):
         ax.set_xlim(min(x[0], 0.0), x[-1])
     return ax
+
+
+def _usual(run: Run) -> tuple[str, ...]:
+    """Columns that are drawn where none is asked for."""
+    if run.is_inflation:
+        return ("cord_force_max_n", "cord_force_min_n") if run.case.get("cords") else ("outer_radius_m",)
+    return ("force_y", "force_x") if run.history.ground else ("kinetic", "strain")
 
 
 def _together(names: Sequence[str], unit: str) -> str:
@@ -94,6 +106,8 @@ def _together(names: Sequence[str], unit: str) -> str:
         return "moment of the ground\non the body"
     if set(names) <= {"force_x", "force_y", "force_lateral"}:
         return "force of the ground\non the body"
+    if set(names) <= {"cord_force_max_n", "cord_force_min_n"}:
+        return "force of a cord"
     if set(names) <= {"contact_nodes", "sticking_nodes"}:
         return "nodes"
     return "energy" if unit.endswith(("J/m", "J")) else "value"
@@ -107,6 +121,9 @@ def plot_energy(run: Run, ax: Axes | None = None) -> Axes:
     if run.is_steady:
         raise Error(f"{run.directory}: steady rolling has powers instead of energies that pass over "
                     "time: run.steady[\"power\"]")
+    if run.is_inflation:
+        raise Error(f"{run.directory}: an inflation has no energies that pass over time: plot_section and "
+                    "plot_cords draw its equilibrium, plot_history its figures over the share of the loads")
     ax = axes_of(ax, 4.0)
     spec = getattr(ax, "get_subplotspec", lambda: None)()  # not there before matplotlib 3.7
     if spec is None:
@@ -172,6 +189,7 @@ def even_rows(run: Run, column: str, from_time: float | None,
     resampled evenly, linearly."""
     if run.is_crush:
         raise Error(f"{run.directory}: a crush has no course in time, and no spectrum")
+    run.history.need_time(NO_COURSE)
     if run.is_steady:
         raise Error(f"{run.directory}: steady rolling has no course in time, and no spectrum; what "
                     "repeats with each sector is in its history")
@@ -194,6 +212,7 @@ def plot_force_spectrum(run: Run, column: str = "force_y", from_time: float | No
     """Amplitude spectrum (see force_spectrum) of a column over frequency. Marked are the multiples
     of the frequencies at which the pitches of a tread and the columns of the mesh pass: ripple at
     those of the mesh is of the nodes, not of the body."""
+    run.history.need_time(NO_COURSE)
     if column not in run.history:
         raise unknown(run.history.path, "column", column, run.history)
     run.history.need_ground(column)

@@ -18,6 +18,7 @@ from ..data.errors import Error
 from ..data.ground import Ground
 from ..data.names import FRAME, frame_named
 from .cells import Array, Cells, cell_means, component, corners, loops, outline, turned
+from .labels import share_of_loads
 from .rim import Rim, draw_rim
 
 if TYPE_CHECKING:
@@ -248,11 +249,13 @@ def plot_field(run: Run, time: float, quantity: str = "displacement", ax: Axes |
 
 
 def snapshot_title(run: Run, index: int, deformation: float = 1.0) -> str:
-    """The time of a snapshot, the depth of an increment of a crush, or the place of a sector's pass in
-    steady rolling, and the factor on the deformation."""
+    """The time of a snapshot, the depth of an increment of a crush, the share of the loads of an inflation, or
+    the place of a sector's pass in steady rolling, and the factor on the deformation."""
     factor = "" if deformation == 1.0 else f", deformation × {deformation:g}"
     if run.crush is not None:
         return f"depth {float(run.crush.depth[index]) * 1e3:.3g} mm{factor}"
+    if run.is_inflation:
+        return share_of_loads(float(run.times[index])) + factor
     if run.is_steady:
         return f"place {index + 1} of {run.n_snapshots}{factor}"
     return f"t = {float(run.times[index]) * 1e3:.1f} ms{factor}"

@@ -21,6 +21,11 @@ LABELS = {  # of columns, where their name does not say it
     "spin_rad_s": "spin", "speed_x": "speed of the hub, x", "speed_y": "speed of the hub, y",
     "hub_force_x": "hub force, x", "hub_force_y": "hub force, y", "hub_torque": "hub torque",
     "slip_percent": "slip ratio",
+    "load_share": "share of the loads", "pressure_pa": "pressure of the air",
+    "outer_radius_m": "outer radius", "width_m": "width", "twist_m": "largest displacement around the axle",
+    "cavity_volume_m3": "volume of the cavity", "det_f_min": "smallest det F",
+    "stretch_max": "largest stretch", "cord_force_min_n": "smallest force of a cord",
+    "cord_force_max_n": "largest force of a cord",
     "kinetic_rim": "kinetic energy of the rim", "support_energy": "energy of the supports",
 }
 PARAMETERS = {"analysis.load": "load", "rim.force_y": "load", "ground.friction": "friction μ",
@@ -48,6 +53,11 @@ def readable(size: float, unit: str) -> tuple[float, str]:
     if unit == "m" and 0 < size < 0.1:
         return 1e3, "mm"
     return 1.0, "–" if unit == "1" else unit
+
+
+def share_of_loads(share: float) -> str:
+    """Of an inflation, in words."""
+    return f"{100.0 * share:.4g} % of the loads"
 
 
 def axes_of(ax: Axes | None, height: float) -> Axes:

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 
 from .. import style
 from ..data.errors import Error, FileError, unknown
-from .curves import MIN_ROWS, even_rows, mark_passing
+from .curves import MIN_ROWS, NO_COURSE, even_rows, mark_passing
 from .labels import axes_of, column_label
 
 if TYPE_CHECKING:
@@ -85,6 +85,7 @@ def plot_psd(run: Run, column: str = "force_y", from_time: float | None = None,
 def checked_psd(run: Run, column: str, from_time: float | None, to_time: float | None,
                 segment: float | None) -> Psd:
     """As power_spectral_density(), of a column that is there and says something."""
+    run.history.need_time(NO_COURSE)
     if column not in run.history:
         raise unknown(run.history.path, "column", column, run.history)
     run.history.need_ground(column)

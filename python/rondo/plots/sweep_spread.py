@@ -22,7 +22,8 @@ SHOWN = ("force_x_mean", "force_x_peak", "force_x_fluctuation", "force_y_mean", 
          "force_y_fluctuation", "torque_mean", "torque_peak", "torque_fluctuation",
          "contact_length_mean_m", "contact_length_peak_m", "friction_power", "impact_power",
          "force_x", "force_y", "torque", "contact_length_m", "pressure_max_pa", "shear_max_pa",
-         "strain")
+         "strain", "outer_radius_m", "width_m", "cavity_volume_m3", "stretch_max", "cord_force_max_n",
+         "cord_force_min_n")  # from outer_radius_m on of an inflation
 HEIGHT = 0.42  # in, of a row
 LEAST = 1e-3  # width of the axis
 SMALL = 0.02  # median over greatest size of a figure that is not to be divided by it
@@ -34,7 +35,7 @@ def plot_spread(sweep: Sweep, figures: Sequence[str] | None = None, ax: Axes | N
                 ) -> Axes:
     """Figures over their median, a row each: every member as a dot, and a box from the first to the
     third quartile with a line at the median and whiskers to the least and the greatest. Without
-    `figures` those of the ground's action on the body. The title names those that are left out,
+    `figures` those of the ground's action on the body, or of an inflation. The title names those that are left out,
     since they have both signs or a median too near to zero."""
     import matplotlib.pyplot as plt
 

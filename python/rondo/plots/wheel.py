@@ -61,6 +61,9 @@ def plot_wheel(run: Run) -> Figure:
 
 def need_rim(run: Run) -> None:
     """An error where the run's history has no columns of a rim."""
+    if run.is_inflation:
+        raise Error(f"{run.directory}: an inflation is an equilibrium, in which no rim moves: rondo figures "
+                    "draws its section and its cords")
     if not run.has_rim or "spin_rad_s" not in run.history:
         raise Error(f"{run.directory}: no [rim] in the case, so that its history has no spin_rad_s, "
                     "speed_y, hub_force_x, ...: give the case a [rim] (free = [] for the reactions "

@@ -92,8 +92,8 @@ def _name(run: Run) -> str:
 def _words(run: Run, chosen: Whole) -> dict[str, Any]:
     """How time passes: what one second of the picture is of the motion is told beside it."""
     span = float(run.times[chosen[-1]] - run.times[chosen[0]])
-    kind = "crush" if run.is_crush else "pass" if run.is_steady else "motion"
-    return {"span": span, "kind": kind}
+    kinds = {"crush": "crush", "inflation": "inflation", "steady-rolling": "pass"}
+    return {"span": span, "kind": kinds.get(run.analysis, "motion")}
 
 
 class _Frames:
@@ -180,7 +180,7 @@ def _fields(run: Run, chosen: Whole, nodes: Whole) -> list[dict[str, Any]]:
                       "signed": bool(numbers.min(initial=0.0) < 0)})
 
     there = run.field_names
-    if "velocity" in there:
+    if "velocity" in there and not run.is_inflation:  # of an equilibrium it is zero
         speed = run.velocity
         add("velocity", speed.units,
             lambda k: np.linalg.norm(np.asarray(speed[k], dtype=float)[nodes], axis=-1))

@@ -72,6 +72,10 @@ SPLIT = _math(*[sign + _sub(_i(letter), _t(name)) for sign, letter, name in (
     ("<mo>−</mo>", "L", "impact"))])
 STATIC = _math(K, _sub(U, _i("k")), IS, _sup(_i("H"), T), _sub(_i("r"), _i("k")), _o(","), _t("  "), ZERO, MOST,
                R_N, NORMAL, W_N, LEAST, ZERO)
+INFLATION = _math(_over(_row(_o("∂"), _i("Π")), _row(_o("∂"), U)), IS, ZERO, _o(","), _t("  "), _i("Π"), IS,
+                  _sub(_i("Ψ"), _t("rubber")), PLUS, _sub(_i("Ψ"), _t("cords")), MINUS, _i("p"), _i("V"), MINUS,
+                  HALF, S2, f"<munder>{_o('∑')}{_i('i')}</munder>", _sub(_i("m"), _i("i")),
+                  f"<msubsup>{_i('r')}{_i('i')}{_n('2')}</msubsup>")
 POD = _math(_sup(_i("W"), HALF), _i("S"), IS, _i("U"), _i("Σ"), _sup(_i("V"), T), _o(","), _t("  "),
             _i("Φ"), IS, _sup(_i("W"), _row(MINUS, HALF)), _i("U"))
 LEFT = _math(_sup(_row(_o("‖"), _i("A"), MINUS, _sub(_i("U"), _i("r")), _sup(_sub(_i("U"), _i("r")), T), _i("A"),
@@ -103,6 +107,10 @@ BY_NAME = {
                "At each increment of the depth: K stiffness, u displacement, H picks the nodes that may touch, "
                "r forces of contact, w with index n the gap. Friction as Coulomb's law has it, over the slip "
                "of an increment."),
+    "inflation": ("Equilibrium under air and spin", "docs/tyre.md", INFLATION,
+                  "Ψ are the energies of the rubber and of the cords at finite strain, u the displacement, p the "
+                  "pressure, V the volume of the cavity in the deformed wheel, s the spin, m masses of the nodes "
+                  "and r their distances from the axle. Solved by Newton's method, step by step of the loads."),
     "pod": ("Modes from snapshots", "7.2", POD,
             "S holds a snapshot in each column, W the weights (masses of the nodes). Columns of Φ are the "
             "modes, Σ holds the singular values σ, largest first, V their courses in time."),

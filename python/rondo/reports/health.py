@@ -35,8 +35,11 @@ def health_tiles(run: Run) -> str:
     info = run.info
     bound = info.get("energy_residual_bound", BOUND_FREE if run.mesh.free.any() else BOUND)
     found = [status_tile(run.status, info.get("message"))]
-    found += _judged(info, "energy_residual_relative", "energy balance closes to", bound)
-    found += _judged(info, "contact_residual_max", "law of contact met to", BOUND)
+    if run.is_inflation:
+        found += _equilibrium(info)
+    else:
+        found += _judged(info, "energy_residual_relative", "energy balance closes to", bound)
+        found += _judged(info, "contact_residual_max", "law of contact met to", BOUND)
     if info.get("penetration_max_m") is not None:
         found.append(("largest penetration", f"{number(1e3 * info['penetration_max_m'])} mm", "",
                       MEMBERS["penetration_max_m"][2]))
@@ -59,6 +62,22 @@ def _judged(info: dict[str, Any], key: str, words: str, bound: float) -> list[Ti
         return [(words, "not known", "warn", "run.json has no such figure yet: the run has not ended")]
     return [(words, number(value), "good" if value <= bound else "bad",
              f"{MEMBERS[key][2]}; a run stops above {number(bound)}")]
+
+
+def _equilibrium(info: dict[str, Any]) -> list[Tile]:
+    """Of an inflation; nothing where no equilibrium was found."""
+    told = info.get("inflation")
+    if not told:
+        return [("loads reached", "not known", "warn", "run.json has no such figure: no equilibrium was found")]
+    share = told["share"]
+    found: list[Tile] = [("loads reached", f"{number(100 * share, 4)} %", "good" if share == 1.0 else "bad",
+                          f"of pressure, spin and mounting, in {number(info.get('equilibria'))} equilibria and "
+                          f"{number(told['newton_iterations'])} iterations of Newton's method")]
+    found.append(("out of balance", number(told["residual"]), "", MEMBERS["inflation.residual"][2]))
+    found.append(("smallest det F", number(told["det_f_min"], 4), "", "volume over undeformed volume, at the worst "
+                  "point of the rubber"))
+    found.append(("largest stretch", number(told["stretch_max"], 4), "", MEMBERS["inflation.stretch_max"][2]))
+    return found
 
 
 def _steps(info: dict[str, Any]) -> list[Tile]:
@@ -120,7 +139,9 @@ def _warnings(info: dict[str, Any]) -> str:
 
 
 def ledger(run: Run) -> str:
-    """The energy balance at the last row, term by term."""
+    """The energy balance at the last row, term by term; of an inflation, which has none, nothing."""
+    if run.is_inflation:
+        return ""
     if run.is_steady:
         return _powers(run)
     history = run.history

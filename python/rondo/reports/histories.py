@@ -26,6 +26,8 @@ GROUPS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("height", "Height of the center", ("center_y_m",)),
     ("speed", "Speed of the center", ("speed_x", "speed_y")),
     ("spin", "Spin", ("spin_rad_s",)),
+    ("cords", "Force of a cord, of all layers", ("cord_force_max_n", "cord_force_min_n")),
+    ("det-f", "Smallest det F", ("det_f_min",)),
     ("energy", "Energies", ("kinetic", "strain", "kinetic_rim", "support_energy", "stored_energy")),
     ("works", "Work done and energy taken, from the start on",
      ("work_frame", "work_contact", "work_rim", "work_load", "work_gravity", "work_rim_load", "work_torque",
@@ -39,13 +41,13 @@ FLAT = 1e-12  # size of a column over that of the largest of its group, below wh
 
 def histories(document: Document, run: Run) -> str:
     """All charts; a sentence where there are none."""
-    if not len(run.history["time_s"]):
+    if not run.history.n_rows:
         return note(f"history.csv has no rows: the run ({run.status}) has not come to its first one.")
     groups = [*GROUPS, *_probes(run)]
     groups += _others(run, {column for _, _, columns in groups for column in columns})
     charts = "".join(_chart(document, run, *group) for group in groups)
     charts += _not_drawn(document, run)
-    rows = len(run.history["time_s"])
+    rows = run.history.n_rows
     if rows > 2 * MOST_ROWS:
         charts = note(f"Of {rows} rows the curves have the least and the largest of each "
                       f"{_stride(rows)}; history.csv has all.") + charts
@@ -55,7 +57,7 @@ def histories(document: Document, run: Run) -> str:
 
 def _others(run: Run, grouped: set[str]) -> list[tuple[str, str, tuple[str, ...]]]:
     """Columns of no group, each by itself."""
-    abscissas = {"time_s"} | ({"depth_m"} if run.is_crush else set())
+    abscissas = {run.history.abscissa} | ({"depth_m"} if run.is_crush else set())
     return [(f"other-{name}", column_label(name).capitalize(), (name,)) for name in run.history
             if name not in grouped | abscissas]
 
@@ -64,7 +66,7 @@ def _not_drawn(document: Document, run: Run) -> str:
     """What has no curve, by name: a reader is not to look for it."""
     drawn = {trace["column"] for name, chart in document.charts.items() if name.startswith("history-")
              for trace in chart["traces"]}
-    left = [name for name in run.history if name not in drawn | {"time_s", "depth_m"}]
+    left = [name for name in run.history if name not in drawn | {run.history.abscissa, "depth_m"}]
     if not left:
         return ""
     return (f'<p class="hint">Not drawn, as they are zero, not finite or without meaning here throughout: '
@@ -117,6 +119,8 @@ def abscissa(run: Run) -> tuple[np.ndarray, str]:
         if len(depth) < 2 or (np.diff(depth) >= 0).all() and np.ptp(depth) > 0:
             return depth * 1e3, "depth (mm)"
         return run.history["time_s"], "share of the load (–)"
+    if run.is_inflation:
+        return run.history["load_share"], "share of the loads (–)"
     if run.is_steady:
         return run.history["time_s"] * 1e3, "time in the pass of a sector (ms)"
     return run.history["time_s"] * 1e3, "time (ms)"

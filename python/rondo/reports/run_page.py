@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The page of a run: motion, crush, steady rolling, in the plane or in three dimensions."""
+"""The page of a run: motion, crush, steady rolling, inflation, in the plane or in three dimensions."""
 from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from ..data.errors import Error
@@ -14,6 +15,7 @@ from ..figures import run_figures
 from ..plots import field, patch
 from ..plots.convergence import plot_convergence
 from ..plots.footprint import plot_footprint
+from ..plots.marks import minus
 from ..plots.modes import plot_pod_spectrum
 from .body import body_of
 from .case_text import case_html
@@ -25,7 +27,7 @@ from .histories import histories
 from .pictures import picture
 
 KINDS = {"dynamic": "a motion in time", "crush": "a crush without inertia",
-         "steady-rolling": "a state of steady rolling"}
+         "steady-rolling": "a state of steady rolling", "inflation": "an inflation"}
 ABOUT = {
     "dynamic": "A deformable body moves in time, in contact with rigid ground or with other bodies. Each "
                "small step of time is computed from the one before, contact and friction exactly, and all "
@@ -35,9 +37,13 @@ ABOUT = {
     "steady-rolling": "A wheel rolls on and on at one speed. What its contact, its shape and its forces then "
                       "are is found directly, without steps in time; what is shown is the pass of one sector "
                       "of the wheel, after which all repeats.",
+    "inflation": "A wheel of rubber and cords is brought into equilibrium under the pressure of its air, its "
+                 "spin and the places of its beads on the rim. These loads grow together in steps; each step is "
+                 "an equilibrium, all around the wheel alike. There is no ground, and nothing moves in time.",
 }
 EQUATIONS = {"dynamic": ("motion", "signorini", "coulomb", "energy", "balance", "split"),
-             "crush": ("static", "coulomb"), "steady-rolling": ("motion", "signorini", "coulomb")}
+             "crush": ("static", "coulomb"), "steady-rolling": ("motion", "signorini", "coulomb"),
+             "inflation": ("inflation",)}
 
 
 def run_page(run: Run) -> Document:
@@ -45,7 +51,8 @@ def run_page(run: Run) -> Document:
                                    f"{', in three dimensions' if run.is_solid else ''}")
     document.section("summary", "Summary", _summary(run))
     document.section("body", "The body", body_html(document, run))
-    document.section("histories", "Histories" if not run.is_crush else "Curves", histories(document, run))
+    document.section("histories", "Curves" if run.is_crush or run.is_inflation else "Histories",
+                     histories(document, run))
     document.section("pictures", "Pictures", _pictures(run))
     document.section("ledger", "Energy balance", ledger(run))
     document.section("case", "The case", case_html(run.directory / "case.toml"))
@@ -60,17 +67,30 @@ def _summary(run: Run) -> str:
         + ("It can go on: rondo run " + run.directory.name + " --resume, then make the report again."
            if run.info.get("resumable") else "Run the case again for the whole of it."))
     return (unfinished + paragraph(escaped(ABOUT.get(run.analysis, ABOUT["dynamic"]))) + health_tiles(run)
-            + _steady_figures(run))
+            + _figures_of(run, "inflation") + _cord_figures(run) + _figures_of(run, "steady"))
 
 
-def _steady_figures(run: Run) -> str:
-    if not run.is_steady or "steady" not in run.info:
+def _figures_of(run: Run, name: str) -> str:
+    """What run.json says of the inflation, or of steady rolling, as a table."""
+    found = run.info.get(name, {})
+    words = {key: MEMBERS[f"{name}.{key}"] for key in found if f"{name}.{key}" in MEMBERS}
+    rows = [(meaning, number(found[key], 6), (solid if run.is_solid else plane) or "–", key)
+            for key, (plane, solid, meaning) in words.items() if isinstance(found[key], (int, float))]
+    return table(("quantity", "value", "unit", "key in run.json"), rows, MEMBERS[name][2],
+                 ("", "number", "", "code")) if rows else ""
+
+
+def _cord_figures(run: Run) -> str:
+    """Of each layer of cords of an inflated wheel."""
+    layers, given = run.info.get("inflation", {}).get("cords", []), run.case.get("cords", [])
+    if not layers or len(layers) != len(given):
         return ""
-    words = {key: MEMBERS[f"steady.{key}"] for key in run.steady if f"steady.{key}" in MEMBERS}
-    rows = [(meaning, number(run.steady[key], 6), (solid if run.is_solid else plane) or "–", key)
-            for key, (plane, solid, meaning) in words.items() if isinstance(run.steady[key], (int, float))]
-    return table(("quantity", "value", "unit", "key in run.json"), rows, MEMBERS["steady"][2],
-                 ("", "number", "", "code"))
+    rows = [(layer["curve"], minus(f"{np.degrees(case['angle']):.4g}"), number(layer["force_min_n"], 4),
+             number(layer["force_max_n"], 4), number(layer["stretch_min"], 6), number(layer["stretch_max"], 6))
+            for layer, case in zip(layers, given)]
+    return table(("curve", "angle in the case (°)", "smallest force of a cord (N)", "largest force (N)",
+                  "smallest stretch (–)", "largest stretch (–)"), rows,
+                 "The layers of cords, each at its worst point; below 0 N a cord is compressed", ("", *["number"] * 5))
 
 
 def body_html(document: Document, run: Run, name: str = "body", budget: int | None = None) -> str:
@@ -84,7 +104,7 @@ def body_html(document: Document, run: Run, name: str = "body", budget: int | No
     html = document.viewer(name, found, f"{run.title}: the deformed body in time")
     if left_out:
         html += note(left_out)
-    if "von_mises" not in run.field_names:
+    if "von_mises" not in run.field_names and "inflation" not in run.case:  # which has none
         html += note("Not in these results: stress (the case with output.stress = true).")
     return html
 
@@ -146,6 +166,13 @@ def _of_solid(run: Run) -> list[Wanted]:
     found: list[Wanted] = []
     if not run.n_snapshots:
         return found
+    if run.is_inflation:
+        found.append(("section", "The section, undeformed in grey, and under the loads that were reached",
+                      lambda: run.plot_section().figure))
+        if run.case.get("cords"):
+            found.append(("cords", "Force of a cord along each layer, as the mean of two points around the wheel; "
+                          "below zero a cord is compressed",
+                          lambda: run.plot_cords().figure))
     for which in ("displacement", "von_mises"):
         if which in run.field_names:
             found.append((which, f"{field.NAMES.get(which, which).capitalize()} at the end",

@@ -27,6 +27,7 @@ MOST_CELLS = 30_000  # of the table of members
 MOST_POINTS = 600_000  # members times columns, of the curves: about 2 MB
 MOST_EFFECTS = 4  # pictures
 ENDINGS = ("mean", "peak", "fluctuation")  # of figures, behind the column that they are of
+EQUATIONS = {"crush": ("static", "coulomb"), "inflation": ("inflation",)}
 ABOUT = ("One case was computed many times, with other values of some keys each time (the parameters). "
          "A row of the table is one of these runs (a member), with figures that sum it up.")
 
@@ -42,8 +43,7 @@ def sweep_page(sweep: Sweep) -> Document:
     document.section("pictures", "Traction" if rolls else "Effects", _pictures(sweep, rolls))
     document.section("members", "Members", _members(sweep))
     document.section("equations", "Equations and words",
-                     equations(*(("static", "coulomb") if sweep.analysis == "crush" else
-                                 ("motion", "signorini", "coulomb"))) + glossary())
+                     equations(*EQUATIONS.get(sweep.analysis, ("motion", "signorini", "coulomb"))) + glossary())
     return document
 
 

@@ -80,6 +80,8 @@ def _full(directory: pathlib.Path) -> Run:
     run = _finished(directory)
     if run.is_crush:
         raise Error(f"{directory}: a crush does not roll: there is no motion to predict")
+    if run.is_inflation:
+        raise Error(f"{directory}: an inflation is an equilibrium: there is no motion to predict")
     if run.info.keys() & {"wheel_modes", "reduced_modes"}:  # the latter of an earlier version
         raise Error(f"{directory}: is a reduced run itself; REDUCED and then the full run that it "
                     "predicts are to be named in turn")

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ... import style
 from ...data.errors import Error
 from ...data.solid import contact_faces
-from ..labels import readable
+from ..labels import readable, share_of_loads
 from ..marks import minus
 
 if TYPE_CHECKING:
@@ -53,6 +53,9 @@ class Footprint:
 def touching(run: Run, k: int) -> dict[str, Array]:
     """The rows of contact.csv of snapshot k, by what they are."""
     run.need_snapshots()
+    if run.is_inflation:
+        raise Error(f"{run.directory}: an inflation is an equilibrium off the ground: no contact, and so no "
+                    "footprint")
     if run.contact is None:
         raise Error(f"{run.directory}: no ground, and so no footprint: the case has no [ground]")
     rows = run.contact.rows
@@ -256,6 +259,8 @@ def forces(run: Run, k: int) -> str:
 def place_of(run: Run, k: int) -> str:
     if run.is_steady:
         return f"place {k + 1} of {run.n_snapshots}"
+    if run.is_inflation:
+        return share_of_loads(float(run.times[k]))
     return f"t = {1e3 * float(run.times[k]):.1f} ms"
 
 

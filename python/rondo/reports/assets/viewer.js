@@ -208,7 +208,8 @@ rondo.Viewer = class {
   #said() {
     const {span, kind} = this.data.wait, turn = this.dimensions === 3 ? " Drag to turn it." : " + and dragging show details.";
     const slower = span > 0 ? this.#seconds() / span : 0;
-    const how = {crush: "Played over the increments of the load.", modes: "A mode has no size of its own: it swings by a tenth of the radius.",
+    const how = {crush: "Played over the increments of the load.", inflation: "Played while air, spin and mounting grow.",
+                 modes: "A mode has no size of its own: it swings by a tenth of the radius.",
                  pass: "One sector's pass, over and over: the next sector then takes the place of this one.",
                  motion: slower >= 1 ? `Played ${rondo.number(slower, 2)} times slower than it happens.`
                                      : `Played ${rondo.number(1 / (slower || 1), 2)} times faster than it happens.`};
