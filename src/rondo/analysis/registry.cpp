@@ -78,7 +78,8 @@ CheckReport check_case(const Case& c, const CheckOptions& options) {
   const std::unique_ptr<Analysis> analysis = make_analysis(c, run);
   CheckReport report = analysis->check(options.trial_s);
   const RecordPlan plan = analysis->record_plan();
-  const std::vector<Told> regions = region_lines(*plan.results.mesh, plan.materials);
+  std::vector<Told> regions = region_lines(*plan.results.mesh, plan.materials);
+  if (c.inflation) regions.front().first = "rubber, no cords";  // its mass is among the lines
   report.lines.insert(report.lines.begin(), regions.begin(), regions.end());
   if (options.columns) report.columns = plan.columns;
   return report;

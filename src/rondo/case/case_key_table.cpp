@@ -377,7 +377,7 @@ constexpr CaseKey keys[] = {
      "Pressure of the air above that outside. It follows the wall"},
     {"inflation.spin", "rad/s", FIELD(inflation->spin), any,
      optional.if_(has_rest_spin, "motion.angular_velocity at t = 0"),
-     "Spin at which the wheel is in equilibrium; motions and modes are linear about this state"},
+     "Spin at which the wheel is in equilibrium; its motion is linear about this state"},
     {"inflation.steps", "-", FIELD(inflation->steps), between(1, 1000), optional,
      "Number of steps in which pressure, spin and mounting grow together"},
     {"inflation.mounting[].curve", "-", FIELD(inflation->mounting[k].curve), any, required,
@@ -591,7 +591,7 @@ constexpr CaseKey keys[] = {
      optional.of(of_steady_rolling).body(never),
      "Number of samples, over the length of a sector, at which steady rolling is solved. Default "
      "with a `[disk.tread]` 16; of a wheel in three dimensions 4, with a `[disk.tread]` 8, of a "
-     "`[section]` 2"},
+     "`[section]` without `[inflation]` 2"},
     {"analysis.slip", "-", FIELD(analysis.slip), one_from("bdf2", "upwind"),
      optional.of(of_steady_rolling).body(never),
      "Formula for the slip of a node in steady rolling. \"bdf2\": from its positions one and two "

@@ -87,7 +87,12 @@ void check_samples(CaseValues& in, Case& c) {
   constexpr std::string_view samples = "analysis.samples_per_sector";
   AnalysisCase& a = c.analysis;
   const bool treaded = is_generated(c) && c.disk.tread.has_value();
-  if (!in.has(samples) && is_solid(c)) a.samples_per_sector = c.section ? 2 : treaded ? 8 : 4;
+  if (!in.has(samples) && is_solid(c))
+    a.samples_per_sector = treaded ? 8 : c.section && !c.inflation ? 2 : 4;
+  if (c.inflation && a.samples_per_sector == 1)
+    c.warnings.emplace_back(
+        "analysis.samples_per_sector = 1: a node that is seen closed for the first time counts as "
+        "having stuck for a whole sector, and the lateral force of a tyre is too large; 4");
   if (!in.has(samples) && !is_solid(c) && treaded) a.samples_per_sector = 16;
   if (!a.massless_contact && a.samples_per_sector > 1)
     in.fault("analysis.massless_contact",

@@ -92,6 +92,8 @@ struct SolidPressure {
   std::vector<Vec3> force;  ///< (n_local) force per unit of pressure on each row of a sector,
                             ///< radial, tangential, axial; on the reference X              [m²]
   Table pressure;           ///< [Pa]
+  bool of_rest = false;     ///< of the state about which the wheel is linear: inner forces, whose
+                            ///< moment a rim that moves feels; `force` in N, `pressure` 1
 };
 
 /// Additional data of a wheel in three dimensions (docs/wheel3d.md). The fields of its state have

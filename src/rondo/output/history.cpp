@@ -14,7 +14,7 @@ namespace {
 /// The radius of a disk, or the largest one of constrained candidates of a mesh. 0: all are free.
 double rolling_radius(const Case& c, const Setup& setup) {
   if (!is_held(c)) return 0.0;
-  if (is_generated(c)) return c.disk.outer_radius;
+  if (is_generated(c) && !c.inflation) return c.disk.outer_radius;
   double radius = 0.0;
   for (const int node : setup.mesh.boundary) {
     const auto k = static_cast<std::size_t>(node);

@@ -117,7 +117,8 @@ constexpr JsonMember<Case> title_members[] = {
 constexpr JsonMember<std::string_view> begun_members[] = {
     {"process", "integer", "", "Number of the process",
      [](const std::string_view&) -> Json { return ::getpid(); }},
-    {"analysis", "string", "", "\"dynamic\", \"crush\", \"steady-rolling\" or \"modes\"",
+    {"analysis", "string", "",
+     "\"dynamic\", \"crush\", \"steady-rolling\", \"inflation\" or \"modes\"",
      [](const std::string_view& analysis) -> Json { return analysis; }},
 };
 

@@ -53,10 +53,12 @@ struct StationarySpin {
                                              std::span<const double> mass,
                                              std::span<const Vec2> reference, double spin);
 
-/// Solves (K - s²MP) u = s² M P X in three dimensions, with P = diag(1, 1, 0).
+/// Solves (K - s²MP) u = (s² - s0²) M P X in three dimensions, with P = diag(1, 1, 0).
+/// @param rest_spin s0, at which X is in equilibrium [rad/s]
 [[nodiscard]] StationarySpin stationary_spin(const fem::SolidSector& k,
                                              std::span<const double> mass,
-                                             std::span<const Vec2> reference, double spin);
+                                             std::span<const Vec2> reference, double spin,
+                                             double rest_spin = 0.0);
 
 /// Solves for a body of N equal sectors, from harmonic 0 alone.
 [[nodiscard]] StationarySpin centrifugal_prestress(const fem::SectorStiffness& k,

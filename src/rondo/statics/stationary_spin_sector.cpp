@@ -47,16 +47,16 @@ class HarmonicFactor {
   Eigen::CholmodDecomposition<fem::Harmonics::Matrix, Eigen::Lower> solver_;
 };
 
-/// s² M^½ P X of sector 0, whose polar frame is that of X.
+/// pull M^½ P X of sector 0, whose polar frame is that of X.
 template <int C>
 Eigen::VectorXd scaled_load(const fem::SectorBlocks<C>& k, const Eigen::VectorXd& root_mass,
-                            std::span<const Vec2> reference, double spin) {
+                            std::span<const Vec2> reference, double pull) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(root_mass.size());
   for (std::size_t a = 0; a < k.n_local(); ++a) {
     const Vec2 x = reference[k.node(a, 0)];
     load.segment<2>(static_cast<Index>(C * a)) = Eigen::Vector2d(x.x, x.y);
   }
-  return spin * spin * load.cwiseProduct(root_mass);
+  return pull * load.cwiseProduct(root_mass);
 }
 
 /// No displacement of n nodes.
@@ -81,15 +81,16 @@ void spread(const fem::SectorBlocks<C>& k, const Eigen::VectorXd& polar, Station
     }
 }
 
-/// (K - softening M P) u = s² M P X by harmonic 0; `unstable` where that is not positive definite.
+/// (K - softening M P) u = pull M P X by harmonic 0; `unstable` where that is not positive
+/// definite.
 template <int C>
 StationarySpin solve(const fem::SectorBlocks<C>& k, HarmonicFactor& factor,
                      const Eigen::VectorXd& root_mass, std::span<const Vec2> reference,
-                     double spin) {
+                     double pull) {
   StationarySpin out = nothing<C>(reference.size());
   if (!factor.compute(0)) return out;
-  // (A(0) - softening P) w = s² M^½ P X with w = M^½ u
-  const Eigen::VectorXd load = scaled_load(k, root_mass, reference, spin);
+  // (A(0) - softening P) w = pull M^½ P X with w = M^½ u
+  const Eigen::VectorXd load = scaled_load(k, root_mass, reference, pull);
   const Eigen::SparseMatrix<double> a = factor.matrix(0).real();
   const auto remainder = [&](const Eigen::VectorXd& w) -> Eigen::VectorXd {
     return load - a.selfadjointView<Eigen::Lower>() * w;
@@ -105,11 +106,12 @@ StationarySpin solve(const fem::SectorBlocks<C>& k, HarmonicFactor& factor,
 
 template <int C>
 StationarySpin find(const fem::SectorBlocks<C>& k, std::span<const double> mass,
-                    std::span<const Vec2> reference, double spin) {
+                    std::span<const Vec2> reference, double spin, double rest_spin) {
   fem::Harmonics harmonics(k, mass);
   const OneBlasThread one_thread;
   HarmonicFactor factor(harmonics, spin * spin);
-  StationarySpin out = solve(k, factor, harmonics.root_mass(), reference, spin);
+  const double pull = spin * spin - rest_spin * rest_spin;
+  StationarySpin out = solve(k, factor, harmonics.root_mass(), reference, pull);
   if (out.status != SpinStatus::solved || factor.positive_from(1)) return out;
   return nothing<C>(reference.size());
 }
@@ -125,12 +127,12 @@ bool all_above(const fem::SectorBlocks<C>& k, std::span<const double> mass, doub
 
 StationarySpin stationary_spin(const fem::SectorStiffness& k, std::span<const double> mass,
                                std::span<const Vec2> reference, double spin) {
-  return find(k, mass, reference, spin);
+  return find(k, mass, reference, spin, 0.0);
 }
 
 StationarySpin stationary_spin(const fem::SolidSector& k, std::span<const double> mass,
-                               std::span<const Vec2> reference, double spin) {
-  return find(k, mass, reference, spin);
+                               std::span<const Vec2> reference, double spin, double rest_spin) {
+  return find(k, mass, reference, spin, rest_spin);
 }
 
 StationarySpin centrifugal_prestress(const fem::SectorStiffness& k, std::span<const double> mass,
@@ -138,7 +140,7 @@ StationarySpin centrifugal_prestress(const fem::SectorStiffness& k, std::span<co
   fem::Harmonics harmonics(k, mass);
   const OneBlasThread one_thread;
   HarmonicFactor factor(harmonics, 0.0);
-  return solve(k, factor, harmonics.root_mass(), reference, spin);
+  return solve(k, factor, harmonics.root_mass(), reference, spin * spin);
 }
 
 bool eigenvalues_above(const fem::SectorStiffness& k, std::span<const double> mass, double shift) {

@@ -148,6 +148,19 @@ TEST(SteadySolidHarmonics, AForceIsFeltAsItsSpectrumSays) {
     }
 }
 
+/// What is in equilibrium at the spin at which it rolls is not displaced by it.
+TEST(SteadySolidHarmonics, TheSpinOfTheStateAtRestIsNoLoad) {
+  const test::SteadyWheel w(small_case());
+  RollingBody<3> body = w.harmonics.body();
+  const Eigen::Vector3d whole = w.harmonics.displacement(1, 0, {});
+  ASSERT_GT(whole.norm(), 0.0);
+  body.rest_spin = body.spin;
+  EXPECT_EQ(RollingHarmonics<3>(body).displacement(1, 0, {}).norm(), 0.0);
+  body.rest_spin = -0.5 * body.spin;
+  const Eigen::Vector3d part = RollingHarmonics<3>(body).displacement(1, 0, {});
+  EXPECT_LT((part - 0.75 * whole).norm(), 1e-12 * whole.norm());
+}
+
 TEST(SteadySolid, SlopesAreThoseOfDifferences) {
   const test::SteadyWheel w(small_case());
   RollingWindow<3> window = cambered(w, 9.81);

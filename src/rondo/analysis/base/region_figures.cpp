@@ -30,7 +30,8 @@ struct Sized {
   bool solid;
 };
 constexpr JsonMember<Sized> whole_rows[] = {
-    {"mass", "number", "kg/m", "Mass of the body",
+    {"mass", "number", "kg/m",
+     "Mass of the body; with [inflation] of its rubber, in the inflated shape",
      [](const Sized& s) -> Json { return s.figures.mass; }},
     {"area", "number", "m2", "Area of the undeformed body; not of a 3D wheel",
      [](const Sized& s) { return s.solid ? absent() : Json(s.figures.size); }},

@@ -18,11 +18,13 @@ namespace rondo::study {
 namespace {
 
 /// Finds the stationary state of rubber at finite strain, else that by K.
-statics::StationarySpin find_stationary(const Setup& s, double spin) {
+statics::StationarySpin find_stationary(const Case& c, const Setup& s, double spin) {
   const dynamics::Model& m = s.model;
   if (s.rubber)
     return statics::stationary_spin(*s.rubber, m.mass, m.reference, held_nodes(m), spin);
-  if (m.solid) return statics::stationary_spin(m.solid->sector, m.mass, m.reference, spin);
+  if (m.solid)
+    return statics::stationary_spin(m.solid->sector, m.mass, m.reference, spin,
+                                    c.inflation ? spin_at_rest(c) : 0.0);
   if (by_harmonics(m)) return statics::stationary_spin(*m.sector, m.mass, m.reference, spin);
   return statics::stationary_spin(m.stiffness, m.mass, m.reference, held_nodes(m), spin);
 }
@@ -30,23 +32,19 @@ statics::StationarySpin find_stationary(const Setup& s, double spin) {
 /// Sets the stationary state of what is held; free bodies stay as they are.
 void set_stationary(const Case& c, Setup& s, SharedBody* shared) {
   const double spin = -c.motion.angular_velocity.at(0.0);
-  const double rest = c.inflation ? spin_at_rest(c) : 0.0;
-  if (spin * spin == rest * rest) return;  // it is at rest
   if (shared && !shared->stationary.empty() && shared->spin == spin) {
     RONDO_DEMAND(shared->stationary.size() == s.model.n_nodes(), shared->stationary.size(),
                  s.model.n_nodes());
     s.displacement = shared->stationary;
     return;
   }
-  statics::StationarySpin stationary = find_stationary(s, spin);
+  statics::StationarySpin stationary = find_stationary(c, s, spin);
   if (stationary.status != statics::SpinStatus::solved)
     throw case_error(c, "motion.angular_velocity",
                      "no stationary state: at this rotation speed the centrifugal softening "
                      "exceeds the stiffness",
                      "a lower rotation speed, or a stiffer material");
   s.displacement = std::move(stationary.u);
-  if (rest != 0.0)  // of the pull at rest there is none left
-    for (Vec3& u : s.displacement.space()) u = (1.0 - rest * rest / (spin * spin)) * u;
   RONDO_DEMAND(s.displacement.size() == s.model.n_nodes() &&
                    s.displacement.components() == s.model.components(),
                s.displacement.size(), s.displacement.components(), s.model.n_nodes());

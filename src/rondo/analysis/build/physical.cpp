@@ -121,11 +121,12 @@ double fastest(const Case& c, const Setup& s, double radius) {
   return speed + rim;
 }
 
-void tell_speed(double speed, const std::vector<fem::Material>& materials, const Tell& to) {
+void tell_speed(const Case& c, double speed, const std::vector<fem::Material>& materials,
+                const Tell& to) {
   double shear = std::numeric_limits<double>::infinity(), of_linear = shear;  // the slowest
   for (const fem::Material& m : materials) {
     shear = std::min(shear, fem::wave_speeds(m).shear);
-    if (!m.rubber) of_linear = std::min(of_linear, fem::wave_speeds(m).shear);
+    if (!m.rubber && !c.inflation) of_linear = std::min(of_linear, fem::wave_speeds(m).shear);
   }
   to.figures.emplace_back("speed", fmt::format("{:.4g} m/s, {:.2g} of the shear wave ({:.4g} m/s)",
                                                speed, speed / shear, shear));
@@ -230,7 +231,7 @@ void tell_physical_figures(const Case& c, Setup& s) {
   for (Told& told : rubber_lines(c, explicit_step(s.model))) s.figures.push_back(std::move(told));
   const std::optional<Wall> wall = is_held(c) ? wall_of(s.mesh) : std::nullopt;
   if (has_candidates(s.model))  // alone in space only spin strains: see the check of softening
-    tell_speed(fastest(c, s, wall ? wall->radius : extent_of(s.mesh)), s.materials, to);
+    tell_speed(c, fastest(c, s, wall ? wall->radius : extent_of(s.mesh)), s.materials, to);
   if (s.model.rim) tell_rim(c, s);
   if (!wall || !s.model.contact) return;
   if (!s.model.rim || !s.model.rim->free_y)  // else the run looks (HubWatch)
@@ -259,7 +260,7 @@ void tell_physical_figures(const Case& c, const mesh::Mesh& mesh,
   const double radius = wall ? wall->radius : extent_of(mesh);
   const bool finds_speed = c.analysis.traction || c.analysis.torque;
   const double rim = std::abs(c.motion.angular_velocity.at(0.0)) * radius;
-  tell_speed(finds_speed ? rim : std::max(rim, std::abs(c.motion.speed.at(0.0))), materials, to);
+  tell_speed(c, finds_speed ? rim : std::max(rim, std::abs(c.motion.speed.at(0.0))), materials, to);
   if (!wall) return;
   if (!c.analysis.load) {
     RONDO_DEMAND(c.ground.has_value(), c.file.string());

@@ -30,8 +30,9 @@ std::vector<Described> rubbers_of(const Case& c) {
   for (std::size_t k = 0; k < c.regions.size(); ++k) {
     const MaterialRegion& region = c.regions[k];
     if (!region.law.is_rubber()) continue;
-    const std::string name =
-        c.mesh ? region.surface : fmt::format("layers {}", fmt::join(region.layers, ", "));
+    const std::string name = !is_generated(c)
+                                 ? region.surface
+                                 : fmt::format("layers {}", fmt::join(region.layers, ", "));
     found.push_back({item_of("material.region", k), name, region.law, region.material});
   }
   RONDO_ASSERT(

@@ -107,7 +107,6 @@ class InflationAnalysis final : public Analysis {
   Progress begin(Recorder& recorder) override;
   Progress advance(Recorder& recorder) override;
   [[nodiscard]] const std::optional<std::string>& trouble() const override { return trouble_; }
-  void close() override;
   void summarise(Json& json, RunReport& report) const override;
 
  private:
@@ -195,11 +194,8 @@ Progress InflationAnalysis::advance(Recorder& recorder) {
   ++equilibria_;
   record(recorder);
   write_cords(directory_, wheel_, steps_.now());
-  return progress();
-}
-
-void InflationAnalysis::close() {
   if (const std::string text = instability(wheel_, steps_.now()); !text.empty()) trouble_ = text;
+  return progress();
 }
 
 void InflationAnalysis::summarise(Json& j, RunReport& r) const {

@@ -77,7 +77,7 @@ void demand_rows_below(const Case& c, const SteadyBody<D>& b) {
 }
 
 double radius_of(const Case& c, const mesh::Mesh& mesh) {
-  if (is_generated(c)) return c.disk.outer_radius;
+  if (is_generated(c) && !c.inflation) return c.disk.outer_radius;
   double radius = 0.0;
   for (const int node : mesh.boundary) radius = std::max(radius, norm(mesh.coordinates[at(node)]));
   return radius;

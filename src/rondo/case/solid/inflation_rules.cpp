@@ -152,9 +152,6 @@ void check_inflation(CaseValues& in, Case& c) {
   if (is_generated(c) && c.disk.tread)
     in.fault("disk.tread", "with [inflation] all columns of the wheel are alike",
              "no [disk.tread]; grooves around the wheel in a [section]");
-  if (c.rim)
-    in.fault("rim", "a rim that is moved by forces does not yet know those of the inflated state",
-             "no [rim]: a rim that follows [motion]");
   check_stress(in, c);
   if (in.good({"inflation"})) warn_of_spin(in, c);
 }

@@ -13,6 +13,7 @@ SolidForces::SolidForces(const Model& model, const State& start)
     : model_(model), now_(model.n_nodes()), before_(model.n_nodes()) {
   RONDO_DEMAND(model.solid && model.solid->axial.size() == model.n_nodes());
   if (!model.solid->pressures.empty()) load_.resize(model.n_nodes());
+  rest_ = rest_forces(model);
   fem::apply(model.solid->sector, start.u, now_);
 }
 
@@ -22,9 +23,30 @@ double SolidForces::evaluate(std::span<const Vec3> u, std::span<const Vec3> /*v*
   std::swap(now_, before_);
   fem::apply(model_.solid->sector, u, now_);
   if (!load_.empty()) solid_pressure_forces(model_, time, load_);
+  moment_ = rest_moment(rest_, u);
   double energy = 0.0;
   for_free_nodes(model_, [&](std::size_t k) { energy += 0.5 * dot(u[k], before_[k]); });
   return energy;
+}
+
+std::vector<Vec3> rest_forces(const Model& model) {
+  const fem::SolidSector& k = model.solid->sector;
+  std::vector<Vec3> all;
+  for (const SolidPressure& p : model.solid->pressures) {
+    if (!p.of_rest) continue;
+    all.resize(model.n_nodes());
+    for (std::size_t j = 0; j < k.turn.size(); ++j)
+      for (std::size_t a = 0; a < k.n_local(); ++a) all[k.node(a, j)] += k.turn[j] * p.force[a];
+  }
+  return all;
+}
+
+/// They are along x, so that x itself adds nothing.
+double rest_moment(std::span<const Vec3> rest, std::span<const Vec3> u) noexcept {
+  double moment = 0.0;
+  RONDO_ASSERT(rest.empty() || rest.size() == u.size(), rest.size(), u.size());
+  for (std::size_t k = 0; k < rest.size(); ++k) moment -= cross(u[k].plane(), rest[k].plane());
+  return moment;
 }
 
 void solid_pressure_forces(const Model& model, double time, std::span<Vec3> load) noexcept {

@@ -28,9 +28,10 @@ class SolidForces {
     return load_.empty() ? Vec3{} : load_[k];
   }
 
-  /// Action of the pressures on the rim, by the clamped nodes. They act on undeformed faces, so
-  /// that their forces round the axle cancel; along the axle nothing moves the rim but its tables.
-  [[nodiscard]] RimForceOf<Vec3> on_rim() const noexcept { return {}; }
+  /// Action of the loads on the rim. Pressures act on undeformed faces, so that their forces round
+  /// the axle cancel; along the axle nothing moves the rim but its tables. What is left is the
+  /// moment of the forces of the state at rest.
+  [[nodiscard]] RimForceOf<Vec3> on_rim() const noexcept { return {{}, moment_}; }
   [[nodiscard]] MaterialReport material() const noexcept { return {}; }
 
   void save(SavedState& saved) const { saved.force = now_; }
@@ -42,7 +43,15 @@ class SolidForces {
  private:
   const Model& model_;
   std::vector<Vec3> now_, before_, load_;
+  std::vector<Vec3> rest_;  ///< (n) forces of the state at rest on the nodes; empty: none [N]
+  double moment_ = 0.0;     ///< on the rim, at u_{n+1} [N m]
 };
+
+/// (n) Forces of the state at rest on the nodes, in the co-rotating frame; empty: none [N].
+[[nodiscard]] std::vector<Vec3> rest_forces(const Model& model);
+
+/// Their moment on the rim, with the nodes displaced by u [N m].
+[[nodiscard]] double rest_moment(std::span<const Vec3> rest, std::span<const Vec3> u) noexcept;
 
 /// Forces of the model's pressures at a time, (n) in the co-rotating frame [N].
 void solid_pressure_forces(const Model& model, double time, std::span<Vec3> load) noexcept;

@@ -50,6 +50,7 @@ void start_wheel(const Model& model, std::span<const Vec3> load, State& state) {
     sum.force += force(k);
     sum.moment += cross(arm_of(model, state, k).plane(), force(k).plane());
   });
+  sum.moment += rest_moment(rest_forces(model), state.u.space());
   rim.start(sum);
   state.rim = rim.save();
   for_free_nodes(model, [&](std::size_t k) {

@@ -202,7 +202,7 @@ Inflation inflate(const SectorEnergy& wheel, const InflationLoads& loads) {
 }
 
 std::optional<int> unstable_harmonic(const SectorEnergy& wheel, const SectorState& state,
-                                     double spin_squared) {
+                                     double spin_squared, int most) {
   using Complexes = std::complex<double>;
   RONDO_DEMAND(state.here.rows() == static_cast<Index>(3 * wheel.n_nodes()) && state.least > 0.0,
                state.here.rows(), state.least);
@@ -210,7 +210,7 @@ std::optional<int> unstable_harmonic(const SectorEnergy& wheel, const SectorStat
   const Eigen::VectorXd softer = softening(wheel, spin_squared);
   const int n = wheel.section().n_sectors;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<Complexes>> factor;
-  for (int k = 0; k <= n / 2; ++k) {
+  for (int k = 0; k <= (most < 0 ? n / 2 : most); ++k) {
     const double angle = 2.0 * std::numbers::pi * k / n;
     const Complexes wave(std::cos(angle), std::sin(angle));
     const auto matrix = gather<Complexes>(

@@ -57,9 +57,9 @@ class InflationSteps {
 /// The lowest harmonic around the wheel in which the equilibrium is not stable, as seen by who
 /// turns with it: K(k) - s² M P is not positive definite to round-off. A wheel that nothing holds
 /// against a rigid motion is not. @param state in which no quadrilateral is
-/// inverted, of this spin
+/// inverted, of this spin @param most the last harmonic that is looked at; < 0: all
 [[nodiscard]] std::optional<int> unstable_harmonic(const fem::finite::SectorEnergy& wheel,
                                                    const fem::finite::SectorState& state,
-                                                   double spin_squared);
+                                                   double spin_squared, int most = -1);
 
 }  // namespace rondo::statics

@@ -63,7 +63,7 @@ void add_ground(const Case& c, const mesh::Mesh& mesh, Model& model) {
 
 /// -s0² M P x, a load that is always there.
 void add_pull(const WheelAtRest& rest, dynamics::SolidBody& body) {
-  if (!rest.load.empty()) body.pressures.push_back({rest.load, dynamics::Table(1.0)});
+  if (!rest.load.empty()) body.pressures.push_back({rest.load, dynamics::Table(1.0), true});
 }
 
 /// @return upper bound of ω² [1/s²]

@@ -54,7 +54,7 @@ const std::vector<mesh::Edge>& section_curve(const Case& c, const mesh::Mesh& se
 std::vector<int> ends_of(const std::vector<mesh::Edge>& edges) {
   std::vector<int> ends;
   for (const auto& [node, others] : neighbours_of(edges))
-    if (others.size() == 1) ends.push_back(node);
+    if (others.size() % 2 == 1) ends.push_back(node);
   return ends;
 }
 

@@ -19,7 +19,7 @@ const std::vector<mesh::Edge>& section_curve(const Case& c, const mesh::Mesh& se
 std::vector<mesh::Edge> directed_curve(const Case& c, const mesh::Mesh& section,
                                        const std::string& key, const std::string& name);
 
-/// Nodes with one edge of the curve alone.
+/// Nodes with an odd number of edges of the curve: one, where it has no branches.
 std::vector<int> ends_of(const std::vector<mesh::Edge>& edges);
 
 }  // namespace rondo::study

@@ -31,6 +31,10 @@ double radius_of(const InflatedWheel& wheel, std::span<const Vec3> u) {
   return radius;
 }
 
+std::string loads_text(double pressure, double spin) {
+  return fmt::format("{:.6g} Pa and {:.6g} rad/s", pressure, spin);
+}
+
 CordFigures cord_figures(const InflatedWheel& wheel, std::size_t layer, std::span<const Vec3> u) {
   CordFigures f{wheel.energy().section().cords[layer].name, 1e300, -1e300, 1e300, 0.0};
   for (const auto& p : wheel.energy().cords(layer, u)) {
@@ -43,6 +47,22 @@ CordFigures cord_figures(const InflatedWheel& wheel, std::size_t layer, std::spa
 }
 
 }  // namespace
+
+InflatedWheel::InflatedWheel(const Case& c, mesh::Mesh section,
+                             const std::vector<fem::Material>& materials)
+    : section_(std::move(section)),
+      energy_(tyre_section(c, section_, materials)),
+      loads_(inflation_loads(c, section_)) {
+  const auto least = std::ranges::min_element(energy_.mass());
+  if (*least > 0.0) return;
+  const Vec2 x = section_.coordinates[static_cast<std::size_t>(least - energy_.mass().begin())];
+  throw case_error(c, "cords[0]",
+                   fmt::format("with the excess mass of the cords the node at r = {:.6g}, z = "
+                               "{:.6g} m has a mass of {:.4g} kg",
+                               x.x, x.y, *least),
+                   "cords[].excess_mass of a metre of cord, in kg/m: a cord less the rubber in its "
+                   "place");
+}
 
 InflationFigures figures_of(const InflatedWheel& wheel, const statics::Inflation& now) {
   const fem::finite::SectorEnergy& energy = wheel.energy();
@@ -74,8 +94,8 @@ InflationFigures figures_of(const InflatedWheel& wheel, const statics::Inflation
 
 std::string no_equilibrium(const InflatedWheel& wheel, const statics::Inflation& now) {
   const InflationFigures f = figures_of(wheel, now);
-  std::string text = fmt::format("there is no equilibrium beyond {:.4g} of the loads", now.share);
-  if (f.pressure > 0.0) text += fmt::format(", {:.6g} Pa", f.pressure);
+  std::string text = fmt::format("there is no equilibrium beyond {:.4g} of the loads, {}",
+                                 now.share, loads_text(f.pressure, f.spin));
   if (now.inverted) {
     const auto& corner = wheel.energy().section().quads[*now.inverted].corner;
     const Vec2 x = wheel.section().coordinates[at(corner[0])];
@@ -87,7 +107,7 @@ std::string no_equilibrium(const InflatedWheel& wheel, const statics::Inflation&
   }
   std::string pressed;
   for (const CordFigures& cords : f.cords)
-    if (cords.force_min < 0.0)
+    if (cords.stretch_min < 1.0 - 1e-9)
       pressed += fmt::format("{}\"{}\" ({:.4g} N)", pressed.empty() ? "" : ", ", cords.curve,
                              cords.force_min);
   if (!pressed.empty()) text += "; cords in compression there: " + pressed;
@@ -97,23 +117,28 @@ std::string no_equilibrium(const InflatedWheel& wheel, const statics::Inflation&
 std::string instability(const InflatedWheel& wheel, const statics::Inflation& now) {
   const double spin_squared = now.share * wheel.loads().sector.spin_squared;
   const std::optional<int> waves =
-      statics::unstable_harmonic(wheel.energy(), now.state, spin_squared);
+      statics::unstable_harmonic(wheel.energy(), now.state, spin_squared, now.found ? -1 : 0);
   if (!waves) return {};
   const std::string shape =
       *waves == 0 ? "in all sectors alike" : fmt::format("in {} waves around the axle", *waves);
-  return fmt::format("the equilibrium at {:.6g} Pa is not stable: the wheel buckles {}",
-                     now.share * wheel.loads().sector.pressure, shape);
+  return fmt::format("the equilibrium at {} is not stable: the wheel buckles {}",
+                     loads_text(now.share * wheel.loads().sector.pressure, std::sqrt(spin_squared)),
+                     shape);
 }
 
 statics::Inflation equilibrium_of(const Case& c, const InflatedWheel& wheel) {
-  statics::Inflation found = statics::inflate(wheel.energy(), wheel.loads());
   constexpr const char* key = "inflation";
-  if (!found.found) throw case_error(c, key, no_equilibrium(wheel, found), instead);
-  if (const std::string text = instability(wheel, found); !text.empty())
+  statics::InflationSteps steps(wheel.energy(), wheel.loads());
+  std::string text;
+  while (!steps.now().found && text.empty()) {
+    if (!steps.advance()) throw case_error(c, key, no_equilibrium(wheel, steps.now()), instead);
+    text = instability(wheel, steps.now());
+  }
+  if (!text.empty())
     throw case_error(c, key, text,
                      "loads that keep the cords in tension; rondo run with analysis.kind = "
                      "\"inflation\" tells their forces (cords.csv)");
-  return found;
+  return steps.now();
 }
 
 std::vector<Vec3> in_all_sectors(const mesh::Mesh& wheel, std::span<const Vec3> u) {

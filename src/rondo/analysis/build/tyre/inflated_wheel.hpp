@@ -15,11 +15,8 @@ namespace rondo::study {
 /// outwards, around, along the axle.
 class InflatedWheel {
  public:
-  /// @throws InputError as tyre_section()
-  InflatedWheel(const Case& c, mesh::Mesh section, const std::vector<fem::Material>& materials)
-      : section_(std::move(section)),
-        energy_(tyre_section(c, section_, materials)),
-        loads_(inflation_loads(c, section_)) {}
+  /// @throws InputError as tyre_section(); a node without mass
+  InflatedWheel(const Case& c, mesh::Mesh section, const std::vector<fem::Material>& materials);
 
   [[nodiscard]] const mesh::Mesh& section() const noexcept { return section_; }
   [[nodiscard]] const fem::finite::SectorEnergy& energy() const noexcept { return energy_; }
@@ -36,7 +33,8 @@ class InflatedWheel {
 
 /// Why there is no equilibrium beyond the last one.
 [[nodiscard]] std::string no_equilibrium(const InflatedWheel& wheel, const statics::Inflation& now);
-/// The waves in which an equilibrium buckles; empty: it is stable.
+/// The waves in which an equilibrium buckles; empty: it is stable. Of one on the way to the loads
+/// only whether all sectors buckle alike: from there others would follow.
 [[nodiscard]] std::string instability(const InflatedWheel& wheel, const statics::Inflation& now);
 
 /// The equilibrium under all loads. @throws InputError: there is none, or it is not stable

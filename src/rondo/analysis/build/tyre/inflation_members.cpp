@@ -9,9 +9,9 @@ namespace {
 constexpr JsonMember<CordFigures> cord_rows[] = {
     {"curve", "string", "", "Curve of the layer",
      [](const CordFigures& f) -> Json { return f.curve; }},
-    {"force_min_n", "number", "N", "Smallest force of a cord; below 0: it is compressed",
+    {"force_min_n", "number", "", "Smallest force of a cord [N]; below 0: it is compressed",
      [](const CordFigures& f) -> Json { return f.force_min; }},
-    {"force_max_n", "number", "N", "Largest force of a cord",
+    {"force_max_n", "number", "", "Largest force of a cord [N]",
      [](const CordFigures& f) -> Json { return f.force_max; }},
     {"stretch_min", "number", "", "Smallest stretch of a cord",
      [](const CordFigures& f) -> Json { return f.stretch_min; }},

@@ -87,6 +87,13 @@ void refuse_short(const Case& c, const mesh::Mesh& section, const std::string& t
     }
 }
 
+template <class Edges>
+bool all_held(const mesh::Mesh& section, const Edges& edges) {
+  const std::vector<char> held = mesh::clamped_flags(section);
+  return std::ranges::all_of(
+      edges, [&](const auto& edge) { return held[at(edge[0])] && held[at(edge[1])]; });
+}
+
 Cords cords_of(const Case& c, const mesh::Mesh& section, const SweptSection& swept, std::size_t k) {
   const CordsCase& given = c.cords[k];
   const std::string table = item_of("cords", k);
@@ -99,6 +106,9 @@ Cords cords_of(const Case& c, const mesh::Mesh& section, const SweptSection& swe
   cords.spacing_radius = given.spacing_radius;
   if (given.green_radius) cords.lift = {*given.green_radius, given.green_extension};
   cords.lines = directed_curve(c, section, table + ".curve", given.curve);
+  if (all_held(section, cords.lines))
+    throw case_error(c, table + ".curve", "every node of the curve is held: its cords do nothing",
+                     "a curve inside the wheel");
   refuse_short(c, section, table, cords);
   refuse_thick(c, section, table, given, cords.lines);
   cords.excess_mass = excess_mass(given, section, swept, cords.lines);
@@ -163,7 +173,12 @@ statics::InflationLoads inflation_loads(const Case& c, const mesh::Mesh& section
                            fmt::format("\"{}\" is not held: the rim moves what is bonded to it",
                                        air.mounting[k].curve),
                            "a curve of section.clamped");
-        loads.mounting[at(node)] = {air.mounting[k].radial, 0.0, air.mounting[k].axial};
+        const Vec3 way{air.mounting[k].radial, 0.0, air.mounting[k].axial};
+        Vec3& given = loads.mounting[at(node)];
+        if (given != Vec3{} && given != way)
+          throw case_error(c, key, "shares a node with another curve that goes elsewhere",
+                           "curves that do not meet, or ways that are the same");
+        given = way;
       }
   }
   return loads;
