@@ -71,6 +71,7 @@ class Members(ProgramTest):
         self.made("more", "run", case, *(part for text in [*CRUSH, "analysis.solver=latin-pgd"]
                                          for part in ("--set", text)), "--modes-from", self.folder / "latin-pgd")
         self.made("mesh", "run", ROOT / "cases" / "bar-on-wall.toml", "--set", "time.end=0.01")
+        self.made("tyre", "run", ROOT / "cases" / "tyre-inflation.toml", "--set", "section.sectors=12")
         self.made("failed", "run", case, "--set", "initial.velocity=[1e20, 0]", code=3)
         self.made("wheel-of-case", "run", case, "--reduced", "--estimate", "--set", BRIEF)
         self.made("wheel-in-the-air", "run", case, "--reduced", "--estimate", "--set", BRIEF, "--set",

@@ -125,6 +125,9 @@ bool has_slide_increments(const Case& c) {
 bool has_slide(const Case& c) {
   return has_slide_increments(c) || c.analysis.slide.points().size() > 1;
 }
+bool is_lifted(const Case& c, std::size_t k) {
+  return c.cords[k].green_radius.has_value();
+}
 bool has_rest_spin(const Case& c) {
   return c.inflation && c.inflation->spin;
 }
@@ -367,7 +370,8 @@ constexpr CaseKey keys[] = {
      "Radius of the drum on which `angle` and `spacing` are measured before the tyre is lifted "
      "into "
      "its mould: the cosine of the angle grows with the radius, and the number of cords stays"},
-    {"cords[].green_extension", "-", FIELD(cords[k].green_extension), between(-0.5, 1.0), optional,
+    {"cords[].green_extension", "-", FIELD(cords[k].green_extension), between(-0.5, 1.0),
+     optional.if_item(is_lifted),
      "Strain of the cords from the drum to the mould, beside `green_radius`"},
 
     {"inflation.curve", "-", FIELD(inflation->curve), any, optional.said("\"\": no air"),

@@ -61,7 +61,7 @@ constexpr CaseTable tables[] = {
     {"rim.support.x", with_rim, nullptr, in_time_untold},
     {"rim.support.y", with_rim, nullptr, in_time_untold},
     {"ground", [](const Case& c) -> std::size_t { return c.ground ? 1 : 0; },
-     [](Case& c, std::size_t n) { set_there(c.ground, n); }, not_in_inflation},
+     [](Case& c, std::size_t n) { set_there(c.ground, n); }},
     {"contact", one, nullptr, in_time_untold},
     {"load.pressure[]", [](const Case& c) { return c.pressures.size(); },
      [](Case& c, std::size_t n) { c.pressures.resize(n); }, in_motion_untold},

@@ -31,7 +31,7 @@ void check_cord_mass(CaseValues& in, const CordsCase& cords, const std::string& 
   if (cords.density && cords.excess_mass)
     in.refuse(table + ".density", "is given together with excess_mass, which follows from it",
               "one of both");
-  if (cords.density && !cords.area)
+  if (cords.density && !cords.area && in.good({table + ".area"}))
     in.refuse(table + ".density", "needs the area of a cord", "area beside it; or excess_mass");
   if (!cords.area || !in.good({table + ".area", table + ".spacing"})) return;
   const double diameter = std::sqrt(4.0 * *cords.area / std::numbers::pi);
@@ -43,7 +43,8 @@ void check_cord_mass(CaseValues& in, const CordsCase& cords, const std::string& 
 }
 
 void check_lift(CaseValues& in, const CordsCase& cords, const std::string& table) {
-  if (!cords.green_radius && in.has(table + ".green_extension"))
+  if (!cords.green_radius && in.has(table + ".green_extension") &&
+      in.good({table + ".green_radius"}))
     in.refuse(table + ".green_extension", "has no effect without green_radius",
               "green_radius beside it");
   if (!cords.green_radius) return;
@@ -51,7 +52,7 @@ void check_lift(CaseValues& in, const CordsCase& cords, const std::string& table
     in.refuse(table + ".spacing_radius",
               "is given together with green_radius, which says how the spacing changes",
               "one of both");
-  if (cords.angle == 0.0)
+  if (cords.angle == 0.0 && in.good({table + ".angle"}))
     in.refuse(table + ".green_radius",
               "has no meaning for cords around the wheel: they cannot turn",
               "an angle that is not 0, or no green_radius");
@@ -138,6 +139,9 @@ void check_inflation_alone(CaseValues& in, Case& c) {
   if (!c.inflation)
     in.refuse("analysis.kind", "\"inflation\" needs the table [inflation]",
               "[inflation] beside it, with the curve and the pressure of the air");
+  if (c.ground)
+    c.warnings.emplace_back(
+        "an inflation is an equilibrium off the ground; without effect: [ground]");
 }
 
 void check_inflation(CaseValues& in, Case& c) {

@@ -48,7 +48,7 @@ constexpr JsonMember<F> rows[] = {
     {"residual", "number", "",
      "Largest force at a free node over the largest reaction or load, after the last step",
      [](const F& f) -> Json { return f.residual; }},
-    {"cords", "array of object", "", "The layers of cords, in the order of the case",
+    {"cords", "array", "", "The layers of cords, in the order of the case",
      [](const F& f) -> Json { return objects_of(cord_rows, std::span(f.cords)); },
      [] { return texts_of(cord_rows); }},
 };
