@@ -264,16 +264,33 @@ def test_layers_along_one_curve_are_told_apart(disk):
 def test_nodes_along_cords(tyre, disk):
     section = tyre.section
     for name, layer in tyre.cords.items():
-        nodes = section.nodes_along(layer, 5)
-        assert len(nodes) == len(layer.force) // 2 + 1, name
+        (nodes,) = section.nodes_along(layer, 5)
+        assert len(layer.starts) == 0 and len(nodes) == len(layer.force) // 2 + 1, name
         z = section.position[5, nodes, 1]
         assert (z[0] < layer.z[0] < z[1]) == (name != "carcass") and z[0] < 0 < z[-1]
         sides = {frozenset(side) for cell in section.cells.tolist() for side in zip(cell, cell[1:] + cell[:1])}
         assert {frozenset(side) for side in zip(nodes.tolist(), nodes.tolist()[1:])} <= sides
         assert section.nodes_along(layer, 0) is None  # undeformed it was elsewhere
     layer = disk.cords["layer-2"]
-    along = disk.section.coordinates[disk.section.nodes_along(layer, 5)]
+    along = disk.section.coordinates[disk.section.nodes_along(layer, 5)[0]]
     assert np.ptp(along[:, 0]) < 1e-12 and np.allclose(along[:, 1], np.linspace(-0.05, 0.05, 5))
+
+
+def test_a_layer_of_several_lines(tmp_path):
+    """Turn-ups and bead wires on both sides: their lines are drawn apart."""
+    out = tmp_path / "out"
+    ok("run", ROOT / "cases" / "tyre-inflation.toml", "-o", out, "--set", f"section.sectors={SECTORS}")
+    run = rondo.open(out)
+    section, places = run.section, plt.figure().subplots(1, 2)
+    for name, count in (("carcass", 1), ("turn-up", 2), ("bead-wire", 6)):
+        lines = section.nodes_along(run.cords[name], 5)
+        assert len(lines) == count == len(run.cords[name].starts) + 1, name
+        assert sum(len(nodes) - 1 for nodes in lines) == len(run.cords[name].force) // 2
+    drawn = {line.get_label(): line.get_xydata() for line in run.plot_section(ax=places[0]).lines}
+    forces = {line.get_label(): line.get_xydata() for line in run.plot_cords(ax=places[1]).lines}
+    for name, gaps in (("carcass", 0), ("turn-up", 1), ("bead-wire", 5)):
+        assert np.isnan(drawn[name]).any(axis=1).sum() == gaps == np.isnan(forces[name]).any(axis=1).sum()
+    assert not places[0].get_title().count("without")
 
 
 def test_what_other_runs_do_not_have(smooth):
@@ -329,7 +346,7 @@ def test_the_section_before_and_after(tyre):
     assert max(before.get_linewidths()) <= 0.6 and before.get_zorder() > after.get_zorder()
     assert [line.get_label() for line in ax.lines] == LAYERS
     for line, name in zip(ax.lines, LAYERS):
-        nodes = section.nodes_along(tyre.cords[name], 5)
+        (nodes,) = section.nodes_along(tyre.cords[name], 5)
         assert np.allclose(line.get_xydata(), 1e3 * section.position[-1, nodes][:, ::-1])
     assert ax.get_title() == "100 % of the loads, pressure 220 kPa, spin 50 rad/s"
     assert bodies(ax) == []  # no colours by numbers
@@ -355,7 +372,7 @@ def test_a_magnified_section_at_a_share_of_the_loads(tyre):
     wanted = section.coordinates + 3.0 * (section.position[2] - section.coordinates)
     drawn = np.array([path.vertices[:4] for path in ax.collections[0].get_paths()])
     assert np.allclose(drawn, 1e3 * wanted[section.cells][..., ::-1], rtol=0, atol=1e-9)
-    nodes = section.nodes_along(tyre.cords["cap"], 5)
+    (nodes,) = section.nodes_along(tyre.cords["cap"], 5)
     assert np.allclose(ax.lines[3].get_xydata(), 1e3 * wanted[nodes][:, ::-1])
     assert ax.get_title() == "40 % of the loads, pressure 88 kPa, spin 31.62 rad/s, displacement × 3"
 

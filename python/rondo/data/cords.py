@@ -15,6 +15,7 @@ from .plain_files import text_of
 
 Array = NDArray[np.float64]
 NAME = "curve"
+NEAR = 0.05  # of half an edge: how far the ends of two edges that meet may seem apart
 COLUMNS = ("r_m", "z_m", "angle_rad", "angle_inflated_rad", "stretch", "force_n")
 
 
@@ -38,6 +39,16 @@ class CordLayer:
     def arc(self) -> Array:
         """(p,) length of the deformed curve from its first point on [m]."""
         return np.cumsum(np.append(0.0, np.hypot(np.diff(self.r), np.diff(self.z))))
+
+    @property
+    def starts(self) -> NDArray[np.intp]:
+        """Points at which a further line of the curve begins, which does not meet the one before: both
+        turn-ups are one layer of two lines."""
+        points = np.stack([self.r, self.z], axis=1).reshape(-1, 2, 2)
+        half = 0.5 * np.sqrt(3.0) * (points[:, 1] - points[:, 0])  # from the points to the ends of the edge
+        middle = points.mean(axis=1)
+        gap = np.linalg.norm((middle + half)[:-1] - (middle - half)[1:], axis=1)
+        return 2 * (np.flatnonzero(gap > NEAR * np.linalg.norm(half, axis=1)[1:]) + 1)
 
 
 class Cords(Mapping[str, CordLayer]):

@@ -34,10 +34,10 @@ class Section:
     position: Array
     sectors: int
 
-    def nodes_along(self, layer: CordLayer, k: int) -> Whole | None:
-        """(j,) nodes along a layer of cords, places among those of the section, by where its points
-        are at snapshot k; None: they are those of another state, on no sides of the cells."""
-        return _chain(_sides_with(self, layer, k))
+    def nodes_along(self, layer: CordLayer, k: int) -> list[Whole] | None:
+        """Nodes along each line of a layer of cords, places among those of the section, by where its
+        points are at snapshot k; None: they are those of another state, on no sides of the cells."""
+        return _chains(_sides_with(self, layer, k))
 
 
 def section_of(mesh: Mesh, displacement: LazyArray) -> Section:
@@ -76,8 +76,9 @@ def _sides_with(section: Section, layer: CordLayer, k: int) -> Whole | None:
     return found if (apart[np.arange(len(points)), chosen] < NEAR * length).all() else None
 
 
-def _chain(sides: Whole | None) -> Whole | None:
-    """The nodes of sides that follow one another."""
-    if sides is None or not len(sides) or (sides[1:, 0] != sides[:-1, 1]).any():
+def _chains(sides: Whole | None) -> list[Whole] | None:
+    """The nodes of sides that follow one another, line by line."""
+    if sides is None or not len(sides):
         return None
-    return np.append(sides[:, 0], sides[-1, 1])
+    begins = np.flatnonzero(sides[1:, 0] != sides[:-1, 1]) + 1
+    return [np.append(line[:, 0], line[-1, 1]) for line in np.split(sides, begins)]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
 from matplotlib.axes import Axes
 
 from ... import style
@@ -30,7 +31,8 @@ def plot_cords(run: Run, ax: Axes | None = None, over: str = "arc") -> Axes:
     ax.axhline(0.0, color="0.8", linewidth=0.6, zorder=0)
     for number, (name, layer) in enumerate(cords.items()):
         x = layer.z if over == "z" else layer.arc - 0.5 * layer.arc[-1]
-        ax.plot(1e3 * x, factor * layer.force, label=name, **(cord_style(number) | {"linewidth": 1.0}))
+        x, force = (np.insert(values, layer.starts, np.nan) for values in (1e3 * x, factor * layer.force))
+        ax.plot(x, force, label=name, **(cord_style(number) | {"linewidth": 1.0}))
     ax.set_xlabel(OVER[over])
     ax.set_ylabel(f"force of a cord ({unit})")
     ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=min(len(cords), 6))

@@ -98,10 +98,11 @@ def draw_cords(ax: Axes, run: Run, places: Array) -> tuple[list[Line2D], list[st
         return [], ["without its cords: there is no cords.csv"]
     lines: list[Line2D] = []
     for number, (name, layer) in enumerate(cords.items()):
-        nodes = run.section.nodes_along(layer, run.n_snapshots - 1)
-        if nodes is None:
+        chains = run.section.nodes_along(layer, run.n_snapshots - 1)
+        if chains is None:
             return lines, ["without its cords: cords.csv is of later loads than the last snapshot"]
-        lines += ax.plot(*places[nodes].T, label=name, zorder=3, **cord_style(number))
+        apart = [np.append(places[nodes], [[np.nan, np.nan]], axis=0) for nodes in chains]
+        lines += ax.plot(*np.concatenate(apart)[:-1].T, label=name, zorder=3, **cord_style(number))
     return lines, []
 
 
