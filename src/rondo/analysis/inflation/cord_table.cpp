@@ -38,7 +38,7 @@ void write_cords(const std::filesystem::path& directory, const InflatedWheel& wh
     const Places at_rest = wheel.energy().cords(k, none), deformed = wheel.energy().cords(k, now.u);
     RONDO_DEMAND(deformed.size() == 4 * layers[k].lines.size(), deformed.size());
     for (std::size_t e = 0; e < deformed.size(); e += 4)
-      for (const std::size_t along : {0, 1})  // 0 and 3 are beside each other, as are 1 and 2
+      for (const std::size_t along : {0UL, 1UL})  // 0 and 3 are side by side, as are 1 and 2
         text += row_of(layers[k].name, at_rest, deformed, e + along, e + 3 - along);
   }
   io::write_file(directory / "cords.csv", text);
