@@ -69,7 +69,7 @@ std::vector<NameKey> curve_keys(const Case& c) {
   return keys;
 }
 
-/// Of curves that may also lie inside.
+/// Keys of curves whose edges may have cells on both sides.
 std::vector<NameKey> line_keys(const Case& c) {
   std::vector<NameKey> keys;
   for (std::size_t k = 0; k < c.cords.size(); ++k)

@@ -133,7 +133,7 @@ class InflationAnalysis final : public Analysis {
   std::optional<std::string> trouble_;
 };
 
-/// A fraction of a second.
+/// It finds the equilibrium, because this takes as long as a run.
 CheckReport InflationAnalysis::check(double /*trial*/) {
   CheckReport r;
   r.nodes = mesh_.n_nodes();

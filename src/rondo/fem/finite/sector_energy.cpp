@@ -23,13 +23,13 @@ struct Corner {
   bool next = false;
 };
 
-/// Of a quadrilateral: its corners on the first side, then those on the second.
+/// The corners of a quadrilateral: first those on the first side, then those on the second.
 std::array<Corner, 8> corners_of(const SweptQuad& quad) noexcept {
   std::array<Corner, 8> corners;
   for (std::size_t a = 0; a < 8; ++a) corners[a] = {quad.corner[a % 4], a >= 4};
   return corners;
 }
-/// Of a line, in the order of FaceCorners.
+/// The corners of a line have the order of FaceCorners.
 std::array<Corner, 4> corners_of(const std::array<int, 2>& line) noexcept {
   return {Corner{line[0], false}, {line[1], false}, {line[1], true}, {line[0], true}};
 }

@@ -59,10 +59,10 @@ class SectorEnergy {
   };
   [[nodiscard]] std::vector<CordPlace> cords(std::size_t layer, std::span<const Vec3> u) const;
 
-  /// Of the rubber, at the points of its elements.
+  /// The largest principal stretch of the rubber at the points of its elements.
   [[nodiscard]] double largest_stretch(std::span<const Vec3> u) const;
-  /// Between the liner, from end to end, and the ring that joins its ends; of the whole wheel.
-  /// Absent: the liner is not one line with two ends [m³]
+  /// The volume between the liner and the ring that joins its two ends, of the whole wheel [m³].
+  /// Absent: the liner is not one line with two ends
   [[nodiscard]] std::optional<double> cavity(std::span<const Vec3> u) const;
 
  private:

@@ -22,11 +22,6 @@ Neighbours neighbours_of(const std::vector<mesh::Edge>& edges) {
   return all;
 }
 
-std::string place_text(const mesh::Mesh& section, int node) {
-  const Vec2 x = section.coordinates[at(node)];
-  return fmt::format("r = {:.6g}, z = {:.6g} m", x.x, x.y);
-}
-
 /// The nodes of the chain that begins there, which are taken out.
 std::vector<int> take_chain(int first, Neighbours& left) {
   std::vector<int> chain{first};
@@ -49,6 +44,11 @@ const std::vector<mesh::Edge>& section_curve(const Case& c, const mesh::Mesh& se
     names += (names.empty() ? "" : ", ") + fmt::format("\"{}\"", curve.name);
   }
   throw case_error(c, key, "there is no curve of this name in the section of the wheel", names);
+}
+
+std::string place_text(const mesh::Mesh& section, int node) {
+  const Vec2 x = section.coordinates[at(node)];
+  return fmt::format("r = {:.6g}, z = {:.6g} m", x.x, x.y);
 }
 
 std::vector<int> ends_of(const std::vector<mesh::Edge>& edges) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "rondo/analysis/build/tyre/curves.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 
@@ -55,11 +56,11 @@ InflatedWheel::InflatedWheel(const Case& c, mesh::Mesh section,
       loads_(inflation_loads(c, section_)) {
   const auto least = std::ranges::min_element(energy_.mass());
   if (*least > 0.0) return;
-  const Vec2 x = section_.coordinates[static_cast<std::size_t>(least - energy_.mass().begin())];
+  const auto node = static_cast<int>(least - energy_.mass().begin());
   throw case_error(c, "cords[0]",
-                   fmt::format("with the excess mass of the cords the node at r = {:.6g}, z = "
-                               "{:.6g} m has a mass of {:.4g} kg",
-                               x.x, x.y, *least),
+                   fmt::format("with the excess mass of the cords the node at {} has a mass of "
+                               "{:.4g} kg",
+                               place_text(section_, node), *least),
                    "cords[].excess_mass of a metre of cord, in kg/m: a cord less the rubber in its "
                    "place");
 }
@@ -98,11 +99,11 @@ std::string no_equilibrium(const InflatedWheel& wheel, const statics::Inflation&
                                  now.share, loads_text(f.pressure, f.spin));
   if (now.inverted) {
     const auto& corner = wheel.energy().section().quads[*now.inverted].corner;
-    const Vec2 x = wheel.section().coordinates[at(corner[0])];
     const auto& names = wheel.section().region_names;
     const std::size_t region =
         wheel.section().region.empty() ? 0 : at(wheel.section().region[*now.inverted]);
-    text += fmt::format(": the element at r = {:.6g}, z = {:.6g} m{} turns inside out", x.x, x.y,
+    text += fmt::format(": the element at {}{} turns inside out",
+                        place_text(wheel.section(), corner[0]),
                         region < names.size() ? fmt::format(", in \"{}\",", names[region]) : "");
   }
   std::string pressed;

@@ -64,9 +64,8 @@ void refuse_thick(const Case& c, const mesh::Mesh& section, const std::string& t
     if (thick > height)
       throw case_error(c, table + ".area",
                        fmt::format("the cords fill a layer of {:.4g} m, and the elements on both "
-                                   "sides of the curve are {:.4g} m high together at r = {:.6g}, "
-                                   "z = {:.6g} m",
-                                   thick, height, a.x, a.y),
+                                   "sides of the curve are {:.4g} m high together at {}",
+                                   thick, height, place_text(section, line[0])),
                        "a smaller area or a larger spacing");
   }
 }
@@ -81,8 +80,8 @@ void refuse_short(const Case& c, const mesh::Mesh& section, const std::string& t
       if (const double cosine = cords.lift->cosine(cords.angle, r); cosine < 1.0) continue;
       throw case_error(c, table + ".green_radius",
                        fmt::format("lifted from the drum, cords at {:.4g} rad would lie around the "
-                                   "wheel before they reach r = {:.6g} m, z = {:.6g} m",
-                                   cords.angle, r, section.coordinates[at(node)].y),
+                                   "wheel before they reach {}",
+                                   cords.angle, place_text(section, node)),
                        "a larger angle, drum or green_extension");
     }
 }
@@ -122,16 +121,13 @@ void add_liner(const Case& c, const mesh::Mesh& section, SweptSection& swept) {
   const std::vector<char> held = mesh::clamped_flags(section);
   for (const int end : ends_of(swept.liner)) {
     if (held[at(end)]) continue;
-    const Vec2 x = section.coordinates[at(end)];
     throw case_error(c, key,
-                     fmt::format("the curve ends at r = {:.6g}, z = {:.6g} m, which is not held: "
-                                 "the air would leak there, and its force would be wrong",
-                                 x.x, x.y),
+                     fmt::format("the curve ends at {}, which is not held: the air would leak "
+                                 "there, and its force would be wrong",
+                                 place_text(section, end)),
                      "a curve from bead to bead, its ends on section.clamped");
   }
-  const bool all_held = std::ranges::all_of(
-      swept.liner, [&](const auto& edge) { return held[at(edge[0])] && held[at(edge[1])]; });
-  if (all_held)
+  if (all_held(section, swept.liner))
     throw case_error(c, key, "every node of the curve is held: a pressure there has no effect",
                      "the wall of the cavity; of a generated disk none is inside");
 }

@@ -20,8 +20,8 @@ struct WheelAtRest {
   std::optional<InflationFigures> inflation;  ///< none: undeformed
 };
 
-/// Of an inflated wheel the mesh is moved to its equilibrium, and the materials become those of
-/// small strain, which measures of the change from there use. @throws InputError
+/// If the case has [inflation], this moves the mesh to its equilibrium and takes the laws of rubber
+/// out of the materials: strains are then small ones, from the equilibrium on. @throws InputError
 [[nodiscard]] WheelAtRest wheel_at_rest(const Case& c, mesh::Mesh& mesh,
                                         std::vector<fem::Material>& materials);
 
