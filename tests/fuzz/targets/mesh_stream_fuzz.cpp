@@ -28,7 +28,7 @@ namespace {
 /// Names of groups in tests/meshes/mixed.geo.
 MeshRequest request_of(unsigned choice) {
   MeshRequest request{.file = "fuzz.msh"};
-  if ((choice & 2U) != 0) request.clamped = "foot";
+  if ((choice & 2U) != 0) request.clamped = {"foot"};
   if ((choice & 4U) != 0) request.contact = "top";
   if ((choice & 8U) != 0) request.surfaces = {"left"};
   if ((choice & 16U) != 0) request.curves = {"top"};
