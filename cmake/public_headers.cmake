@@ -3,7 +3,7 @@
 # of the second. house_install compiles each of them by itself against what is installed.
 set(RONDO_PUBLIC_HEADERS
     core/error.hpp core/version.hpp case/case.hpp case/setup.hpp
-    output/run_options.hpp analysis/run.hpp analysis/build/build.hpp analysis/modes/modes.hpp
+    output/run_options.hpp analysis/run.hpp analysis/build/build.hpp analysis/modes/modes.hpp analysis/modes/standing.hpp
     analysis/matrices/matrices.hpp analysis/matrices/operators.hpp analysis/matrices/contact_rows.hpp
     study/pod/pod.hpp study/reduce/reduce.hpp io/run_reader.hpp
     mesh/mesh.hpp mesh/disk.hpp mesh/gmsh_reader.hpp

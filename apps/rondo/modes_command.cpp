@@ -37,6 +37,10 @@ void print_critical(const study::ModesReport& r) {
 void print_report(const study::ModesReport& r) {
   print_modes(r);
   print_critical(r);
+  if (r.on_ground)
+    fmt::print(
+        "standing           center {:.6g} m above the ground, load {:.6g} N, {} nodes touch\n",
+        r.on_ground->height, r.on_ground->load, r.on_ground->nodes);
   fmt::print("files              {}\n", r.directory.string());
 }
 

@@ -27,7 +27,7 @@ RUNS = {  # name: case, settings
     "steady": (SMALL, STEADY),
     "steady-load": (SMALL, ["analysis.kind=steady-rolling", "analysis.load=500", "analysis.traction=0"]),
     "steady-torque": (SMALL, [*STEADY, "analysis.torque=0"]),
-    "steady-wheel": (SMALL, [*STEADY, *WIDE]),
+    "steady-wheel": (SMALL, [*STEADY, *WIDE, "analysis.estimate_slip_error=true"]),
 }
 
 

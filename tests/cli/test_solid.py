@@ -416,7 +416,6 @@ class Refusals(SolidTest):
         self.assertIn("[disk] or [mesh]", told)
         told = self.refused(text=WHEEL + '[section]\nfile = "bar.msh"\nclamped = "rim"\n')
         self.assertIn("[disk] or [section]", told)
-        self.assertIn("modes are computed for plane bodies", self.refused(command="modes"))
         out = self.of()
         done = run("reduce", out, "-o", self.folder / "model.h5")
         self.assertEqual(done.returncode, 2, done.stderr)

@@ -2,6 +2,7 @@
 """Wheels with cords and air, from outside: the equilibrium and its files, what moves about it, and
 what is refused."""
 import csv
+import json
 import unittest
 
 import h5py
@@ -34,7 +35,7 @@ curve = "carcass"
 angle = {np.pi / 2}
 stiffness = 1900.0
 spacing = 1.0e-3
-spacing_radius = 0.3032
+spacing_radius = 0.303
 excess_mass = 8.74e-5
 [[cords]]
 curve = "belt-1"
@@ -130,7 +131,7 @@ class Inflation(TyreTest):
         self.assertLessEqual(state["newton_iterations"], 25)
         self.assertLess(state["residual"], 1e-10)
         forces = {c["curve"]: c["force_max_n"] for c in state["cords"]}
-        for curve, force in (("carcass", 14.86), ("belt-1", 46.52), ("belt-2", 46.12)):
+        for curve, force in (("carcass", 14.87), ("belt-1", 46.52), ("belt-2", 46.12)):
             self.assertAlmostEqual(forces[curve], force, delta=0.01, msg=curve)
         rows = history(self.results)
         np.testing.assert_allclose(rows["load_share"], np.linspace(0, 1, 6), atol=1e-12)
@@ -342,6 +343,60 @@ class Refused(TyreTest):
     def test_a_plane_body(self):
         plane = (ROOT / "cases" / "rubber-rolling.toml").read_text()
         self.refused(plane + "\n[inflation]\npressure = 1e5\n", "the body is plane")
+
+
+
+class Modes(TyreTest):
+    """Frequencies about the inflated state, by an independent calculation."""
+
+    def modes(self, sectors, *arguments, code=0):
+        done = run("modes", self.case(MOVING), "-o", self.results, "--overwrite", "--diameters", 0, "--set",
+                   f"section.sectors={sectors}", *arguments)
+        self.assertEqual(done.returncode, code, done.stderr)
+        if code:
+            return done.stderr
+        with open(self.results / "modes.csv", newline="") as file:
+            return [{**row, "frequency_hz": float(row["frequency_hz"])} for row in csv.DictReader(file)]
+
+    def test_at_rest(self):
+        rows = self.modes(120, "--count", 14, "--spin", 0)
+        for n, expected in ((0, (36.60, 43.26)), (1, (45.88, 64.13)), (2, (79.61, 87.93))):
+            of_n = [row["frequency_hz"] for row in rows if row["nodal_diameters"] == str(n)]
+            if n > 0:
+                np.testing.assert_allclose(of_n[::2], of_n[1::2], rtol=1e-9)
+                of_n = of_n[::2]
+            np.testing.assert_allclose(of_n[:2], expected, atol=6e-3)
+        # (alpha/omega + beta omega)/2
+        omega = float(rows[0]["frequency_rad_s"])
+        self.assertAlmostEqual(float(rows[0]["damping_ratio"]), (20.0 / omega + 1.5e-6 * omega) / 2, delta=1e-9)
+        self.assertLess(max(float(row["residual"]) for row in rows), 1e-8)
+        self.assertEqual(summary(self.results)["inflation"]["outer_radius_m"] > 0.31, True)
+
+    def test_spin_stiffens_through_its_own_equilibrium(self):
+        """The lowest mode is lateral, which the spin neither softens nor turns."""
+        rows = self.modes(60, "--count", 1, "--spin", 0, 50, 100, 150)
+        np.testing.assert_allclose([row["frequency_hz"] for row in rows], [36.78, 37.46, 39.50, 42.78],
+                                   atol=6e-3)
+
+    def test_a_tyre_that_stands(self):
+        """Held by the ground, it is stiffer; free to slide there, less so; not in contact, refused."""
+        ground = ("--set", 'ground={profile = "flat", friction = 0.9}', "--standing", "--count", 3)
+        held = self.modes(60, *ground, "--set", "motion.height=0.299968")
+        load = json.loads((self.results / "modes.json").read_text())["standing"]
+        sliding = self.modes(60, *ground, "--set", "motion.height=0.299968", "--set", "ground.friction=0")
+        free = self.modes(60, "--count", 3, "--spin", 0)
+        lowest = [rows[0]["frequency_hz"] for rows in (free, sliding, held)]
+        self.assertEqual(lowest, sorted(lowest))
+        self.assertGreater(lowest[2], lowest[0] * 1.1)
+        self.assertEqual([row["nodal_diameters"] for row in held], [""] * 3)
+        self.assertAlmostEqual(load["load"] / 3764.0, 1.0, delta=1e-3)
+        self.assertGreater(load["nodes"], 20)
+        said = self.modes(60, *ground, "--set", "motion.height=0.32", code=2)
+        self.assertIn("motion.height", said)
+        self.assertIn("nothing touches: the center is 0.32 m above the ground", said)
+        said = self.modes(60, *ground, "--spin", 10, "--set", "motion.height=0.299968", code=2)
+        self.assertIn("a wheel that stands does not turn", said)
+        self.assertIn("there is no ground to stand on", self.modes(60, "--standing", code=2))
 
 
 if __name__ == "__main__":

@@ -47,7 +47,7 @@ curve = "carcass"
 angle = 1.5707963267948966
 stiffness = 1900.0
 spacing = 1e-3
-spacing_radius = 0.3032
+spacing_radius = 0.303
 [[cords]]
 curve = "belt-1"
 angle = 0.384

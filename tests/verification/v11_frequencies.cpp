@@ -33,7 +33,7 @@ Frequencies compute(int radial, bool stiffened) {
     EXPECT_EQ(prestress.status, statics::SpinStatus::solved);
     k = fem::assemble_sector(mesh, {&c.material, 1}, prestress.u);
   }
-  const modal::Modes found = modal::cyclic_modes({k, mass, mesh.coordinates}, -50.0, 16);
+  const modal::Modes found = modal::cyclic_modes<2>({k, mass, mesh.coordinates}, -50.0, 16);
   EXPECT_TRUE(found.counted);
   EXPECT_EQ(found.unstable, 0);
   Frequencies lowest;
@@ -91,7 +91,7 @@ TEST(Frequencies, TranslationOfAFreeDiskTurnsBackWithTheSpin) {
   mesh.clamped.clear();
   const std::vector<double> mass = fem::lumped_mass(mesh, {&c.material, 1});
   const fem::SectorStiffness k = fem::assemble_sector(mesh, {&c.material, 1});
-  const modal::Modes found = modal::cyclic_modes({k, mass, mesh.coordinates}, -50.0, 4);
+  const modal::Modes found = modal::cyclic_modes<2>({k, mass, mesh.coordinates}, -50.0, 4);
   int translations = 0;
   for (const modal::Mode& mode : found.modes) {
     if (mode.wave != Wave::rigid || mode.diameters != 1) continue;

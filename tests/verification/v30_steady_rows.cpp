@@ -158,7 +158,7 @@ TEST(SteadyRollingRows, MassOnContactNodesFailsAndSaysSo) {
 
 TEST(SteadyRollingRows, CriticalSpinOfTheMesh) {
   const test::SteadyBody b(rolling_at(33.333333), 1, false);
-  const modal::CyclicBody body{b.sector, b.mass, b.mesh.coordinates};
+  const modal::CyclicBody<2> body{b.sector, b.mass, b.mesh.coordinates};
   EXPECT_TRUE(modal::critical_speeds_up_to(body, 181.77).empty());
   const auto found = modal::critical_speeds_up_to(body, 181.79);
   ASSERT_EQ(found.size(), 1U);

@@ -183,7 +183,7 @@ TEST(WheelStatics, HeldAlongTheAxleItHasTheFrequenciesOfThePlaneDisk) {
       {{2, Wave::forward}, 653.511},  {{3, Wave::backward}, 879.892},
       {{3, Wave::forward}, 803.131}};
   const Held held = hold(32);
-  const modal::Modes found = modal::cyclic_modes({held.k, held.mass, held.reference}, spin, 16);
+  const modal::Modes found = modal::cyclic_modes<2>({held.k, held.mass, held.reference}, spin, 16);
   EXPECT_TRUE(found.counted);
   std::map<std::pair<int, Wave>, double> lowest;
   for (const modal::Mode& mode : found.modes)

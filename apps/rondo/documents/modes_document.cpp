@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <numbers>
 
 #include "documents/documents.hpp"
@@ -22,6 +23,11 @@ constexpr JsonMember<ModeLine> mode_members[] = {
     {"wave", "string", "", "\"standing\", \"forward\", \"backward\"...; \"\": unknown",
      [](const ModeLine& m) -> Json { return study::name_of(m.wave); }},
     {"residual", "number", "", "of the mode", [](const ModeLine& m) -> Json { return m.residual; }},
+    {"damping_ratio", "number or null", "",
+     "rate of decay by [damping] over omega; null: of a rigid-body motion",
+     [](const ModeLine& m) -> Json {
+       return std::isnan(m.damping_ratio) ? Json() : Json(m.damping_ratio);
+     }},
 };
 
 constexpr JsonMember<SpinSummary> spin_members[] = {
@@ -56,6 +62,15 @@ Json critical_of(const ModesReport& r) {
   return objects_of(critical_members, list);
 }
 
+constexpr JsonMember<study::Standing> standing_members[] = {
+    {"height", "number", "m", "of the center above the ground",
+     [](const study::Standing& s) -> Json { return s.height; }},
+    {"load", "number", "N", "of the ground, without friction",
+     [](const study::Standing& s) -> Json { return s.load; }},
+    {"nodes", "integer", "", "that touch",
+     [](const study::Standing& s) -> Json { return s.nodes; }},
+};
+
 constexpr JsonMember<ModesReport> modes_members[] = {
     {"directory", "string", "", "where the files are",
      [](const ModesReport& r) -> Json { return r.directory.string(); }},
@@ -73,6 +88,11 @@ constexpr JsonMember<ModesReport> modes_members[] = {
      [] { return texts_of(spin_members); }},
     {"critical_speeds", "array", "", "at which a wave stands still in space", critical_of,
      [] { return texts_of(critical_members); }},
+    {"standing", "object", "", "how the wheel stands, with --standing",
+     [](const ModesReport& r) {
+       return r.on_ground ? object_of(standing_members, *r.on_ground) : study::absent();
+     },
+     [] { return texts_of(standing_members); }},
     {"residual_max", "number", "", "of all modes",
      [](const ModesReport& r) -> Json { return r.residual_max; }},
     {"wall_s", "number", "s", "all of it", [](const ModesReport& r) -> Json { return r.wall_s; }},

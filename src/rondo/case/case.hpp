@@ -108,6 +108,9 @@ struct GroundCase {
 
 enum class RollingSlip { bdf2, upwind };
 
+/// Which harmonics of steady rolling accelerate the masses.
+enum class RollingMasses { all, waves, none };
+
 /// Solution of the increments of a crush: one after another, or all at once by iterations.
 enum class CrushMethod { direct, latin, latin_pgd };
 
@@ -126,6 +129,8 @@ struct AnalysisCase {
   // Keys of steady rolling:
   int samples_per_sector = 8;                  ///< P >= 1
   RollingSlip slip = RollingSlip::bdf2;        ///< discretisation of the slip
+  RollingMasses inertia = RollingMasses::all;  ///< default with [inflation]: waves
+  bool estimate_slip_error = false;            ///< default with [inflation]: true
   bool massless_contact = true;                ///< always the case with more than one sample
   bool accept_scheme_power = false;            ///< a large power of the discretisation is no fault
   std::optional<double> load{};                ///< F_y > 0, instead of the height            [N/m]

@@ -601,6 +601,19 @@ constexpr CaseKey keys[] = {
      "Formula for the slip of a node in steady rolling. \"bdf2\": from its positions one and two "
      "samples before. \"upwind\": from that one sample before alone, which is more robust and "
      "coarser"},
+    {"analysis.inertia", "-", FIELD(analysis.inertia), one_from("all", "waves", "none"),
+     optional.of(of_steady_rolling).body(never),
+     "Which harmonics of the turn accelerate the masses in steady rolling. \"all\": those of all "
+     "samples. \"waves\": those that the sectors resolve as waves around the wheel, up to half "
+     "their number; the others, which a node meets as it passes the contact, are quasi-static. "
+     "\"none\": none, which is slow rolling with the centrifugal force of the spin. Default with "
+     "`[inflation]` \"waves\""},
+    {"analysis.estimate_slip_error", "-", FIELD(analysis.estimate_slip_error), any,
+     optional.of(of_steady_rolling).body(never),
+     "Whether the contact is solved with both formulas of `analysis.slip`, and their difference "
+     "kept as `slip_error` in `run.json`: the error of the discretisation along the ground. "
+     "Default "
+     "with `[inflation]` true"},
     {"analysis.massless_contact", "-", FIELD(analysis.massless_contact), any,
      optional.of(of_steady_rolling).body(never),
      "Whether the mass of the contact nodes is moved to the nodes below them. false is allowed "

@@ -89,6 +89,8 @@ void check_samples(CaseValues& in, Case& c) {
   const bool treaded = is_generated(c) && c.disk.tread.has_value();
   if (!in.has(samples) && is_solid(c))
     a.samples_per_sector = treaded ? 8 : c.section && !c.inflation ? 2 : 4;
+  if (c.inflation && !in.has("analysis.inertia")) a.inertia = RollingMasses::waves;
+  if (c.inflation && !in.has("analysis.estimate_slip_error")) a.estimate_slip_error = true;
   if (c.inflation && a.samples_per_sector == 1)
     c.warnings.emplace_back(
         "analysis.samples_per_sector = 1: a node that is seen closed for the first time counts as "

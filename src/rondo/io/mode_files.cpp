@@ -23,20 +23,22 @@ struct Part {
 
 Part create(h5::File& file, const char* name, const h5::Shape& shape) {
   const std::string part = name;
-  const std::string unit = "(kg/m)^(-1/2)";
-  return {file.create("/modes/" + part, Type::float64, {shape[0], shape[1], 2},
-                      {unit, part + " part of each shape phi at each node: x, y, in the turning "
-                                    "frame; the motion is Re(phi exp(i omega t))"}),
+  const bool solid = shape[2] == 3;
+  const std::string unit = solid ? "kg^(-1/2)" : "(kg/m)^(-1/2)";
+  return {file.create(
+              "/modes/" + part, Type::float64, shape,
+              {unit, part + " part of each shape phi at each node: x, y" + (solid ? ", z" : "") +
+                         ", in the turning frame; the motion is Re(phi exp(i omega t))"}),
           file.create("/fields/" + part, Type::float32, {shape[0], shape[1], 3},
                       {unit, "/modes/" + part + " for ParaView"})};
 }
 
-void put(Part& part, std::size_t row, const std::vector<Vec2>& shape) {
-  std::vector<Vector> shown;
-  shown.reserve(shape.size());
-  for (const Vec2 v : shape)
-    shown.push_back({static_cast<float>(v.x), static_cast<float>(v.y), 0.0F});
-  part.exact.write_row(row, std::span<const Vec2>(shape));
+void put(Part& part, std::size_t row, FieldView shape) {
+  std::vector<Vector> shown(shape.size(), Vector{});
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    for (std::size_t c = 0; c < shape.components; ++c)
+      shown[i][c] = static_cast<float>(shape[i][c]);
+  part.exact.write_row(row, shape.values);
   part.shown.write_row(row, std::span<const Vector>(shown));
 }
 
@@ -80,8 +82,9 @@ void write_mode_shapes(const fs::path& directory, const mesh::Mesh& mesh,
   Xdmf xdmf(directory / "modes.xdmf", series_of(mesh, n));
   if (n > 0) {  // readers fail on datasets without numbers
     write_figures(file, spins, n);
-    Part real = create(file, "real", {n, mesh.n_nodes()});
-    Part imaginary = create(file, "imaginary", {n, mesh.n_nodes()});
+    const h5::Shape shape{n, mesh.n_nodes(), mesh.is_solid() ? 3U : 2U};
+    Part real = create(file, "real", shape);
+    Part imaginary = create(file, "imaginary", shape);
     std::size_t row = 0;
     for (const SpinModes& spin : spins)
       for (const modal::Mode& mode : *spin.modes) {

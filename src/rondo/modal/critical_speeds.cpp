@@ -17,10 +17,11 @@ using StdComplex = std::complex<double>;
 using Matrix = fem::Harmonics::Matrix;
 using Eigen::VectorXcd;
 
-/// A(n) w = s² Q w, Q = n² + 1 - 2inJ - A_σ(n) (8.6).
+/// A(n) w = s² Q w, Q = n² + P - 2inJ - A_σ(n) (8.6).
+template <int D>
 class CriticalProblem {
  public:
-  CriticalProblem(const CyclicBody& body, const fem::SectorStiffness* stiffening)
+  CriticalProblem(const CyclicBody<D>& body, const fem::SectorBlocks<D>* stiffening)
       : elastic_(body.stiffness, body.mass) {
     if (stiffening) stiffening_.emplace(*stiffening, body.mass);
   }
@@ -38,8 +39,8 @@ class CriticalProblem {
     const double n = n_;
     Matrix m = a_;
     if (stiffening_) m += squared * a_sigma_;
-    for (Index k = 0; k < m.cols(); ++k) m.coeffRef(k, k) -= squared * (n * n + 1.0);
-    for (Index k = 0; k < m.cols(); k += 2)
+    for (Index k = 0; k < m.cols(); ++k) m.coeffRef(k, k) -= squared * (n * n + in_plane<D>(k));
+    for (Index k = 0; k < m.cols(); k += D)
       m.coeffRef(k + 1, k) += StdComplex(0.0, 2.0 * n * squared);
     return negative_eigenvalues(m) == 0;
   }
@@ -70,7 +71,8 @@ class CriticalProblem {
   }
   [[nodiscard]] VectorXcd right(const VectorXcd& x) const {
     const double n = n_;
-    VectorXcd y = (n * n + 1.0) * x - n * gyroscopic(x);
+    VectorXcd y = n * n * x - n * gyroscopic<D>(x);
+    for (Index k = 0; k < y.size(); ++k) y[k] += in_plane<D>(k) * x[k];
     if (stiffening_) y -= a_sigma_.selfadjointView<Eigen::Lower>() * x;
     return y;
   }
@@ -86,9 +88,11 @@ class CriticalProblem {
 
 }  // namespace
 
-std::vector<CriticalSpeed> critical_speeds(const CyclicBody& body,
-                                           const fem::SectorStiffness* stiffening, int last) {
-  CriticalProblem problem(body, stiffening);
+template <int D>
+std::vector<CriticalSpeed> critical_speeds(
+    const CyclicBody<D>& body, const std::type_identity_t<fem::SectorBlocks<D>>* stiffening,
+    int last) {
+  CriticalProblem<D> problem(body, stiffening);
   std::vector<CriticalSpeed> speeds;
   for (int n = body.free() ? 2 : 1; n <= std::min(last, problem.n_harmonics() - 1); ++n) {
     problem.choose(n);
@@ -98,8 +102,9 @@ std::vector<CriticalSpeed> critical_speeds(const CyclicBody& body,
   return speeds;
 }
 
-std::vector<CriticalSpeed> critical_speeds_up_to(const CyclicBody& body, double spin) {
-  CriticalProblem problem(body, nullptr);
+template <int D>
+std::vector<CriticalSpeed> critical_speeds_up_to(const CyclicBody<D>& body, double spin) {
+  CriticalProblem<D> problem(body, nullptr);
   std::vector<CriticalSpeed> speeds;
   for (int n = 0; n < problem.n_harmonics(); ++n) {
     problem.choose(n);
@@ -107,5 +112,12 @@ std::vector<CriticalSpeed> critical_speeds_up_to(const CyclicBody& body, double 
   }
   return speeds;
 }
+
+template std::vector<CriticalSpeed> critical_speeds(const CyclicBody<2>&,
+                                                    const fem::SectorBlocks<2>*, int);
+template std::vector<CriticalSpeed> critical_speeds(const CyclicBody<3>&,
+                                                    const fem::SectorBlocks<3>*, int);
+template std::vector<CriticalSpeed> critical_speeds_up_to(const CyclicBody<2>&, double);
+template std::vector<CriticalSpeed> critical_speeds_up_to(const CyclicBody<3>&, double);
 
 }  // namespace rondo::modal

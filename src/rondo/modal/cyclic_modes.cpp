@@ -53,7 +53,8 @@ class Lowest {
 };
 
 /// Number of negative eigenvalues of all K'(n); harmonic 0 of a free disk is left out (8.5).
-int count_unstable(HarmonicProblem& problem, bool free) {
+template <int D>
+int count_unstable(HarmonicProblem<D>& problem, bool free) {
   int unstable = 0;
   for (int n = free ? 1 : 0; n < problem.n_harmonics(); ++n) {
     problem.choose(n);
@@ -63,7 +64,8 @@ int count_unstable(HarmonicProblem& problem, bool free) {
 }
 
 /// Adds the roots of harmonic n below the bound. False if fewer are found than were counted.
-bool add_harmonic(HarmonicProblem& problem, int n, double spin, int count, Lowest& lowest) {
+template <int D>
+bool add_harmonic(HarmonicProblem<D>& problem, int n, double spin, int count, Lowest& lowest) {
   problem.choose(n);
   const double bound = lowest.bound();
   const double sigma = std::isfinite(bound) ? bound : problem.sigma_with(count);
@@ -79,7 +81,7 @@ bool add_harmonic(HarmonicProblem& problem, int n, double spin, int count, Lowes
 
 /// Adds rigid-body motions. Translations of a spinning free disk have constant velocity in the
 /// fixed frame: a double root with the single vector w (8.5).
-void add_rigid(const CyclicBody& body, HarmonicProblem& problem, double spin,
+void add_rigid(const CyclicBody<2>& body, HarmonicProblem<2>& problem, double spin,
                std::vector<Mode>& modes) {
   for (const int n : {0, 1}) {
     problem.choose(n);
@@ -92,7 +94,7 @@ void add_rigid(const CyclicBody& body, HarmonicProblem& problem, double spin,
   for (Mode& mode : modes) mode.wave = Wave::rigid;
 }
 
-void add_rotational(const CyclicBody& body, HarmonicProblem& problem, double spin, Modes& out,
+void add_rotational(const CyclicBody<2>& body, HarmonicProblem<2>& problem, double spin, Modes& out,
                     Lowest& lowest) {
   RONDO_DEMAND(static_cast<std::size_t>(problem.size()) <= most_dofs_of_free_sector,
                problem.size());
@@ -106,21 +108,27 @@ void add_rotational(const CyclicBody& body, HarmonicProblem& problem, double spi
 
 }  // namespace
 
-Modes cyclic_modes(const CyclicBody& body, double spin, int count) {
-  HarmonicProblem problem(body, spin);
+template <int D>
+Modes cyclic_modes(const CyclicBody<D>& body, double spin, int count) {
+  HarmonicProblem<D> problem(body, spin);
   RONDO_DEMAND(problem.finite(), spin);
   const bool free = body.free();
+  RONDO_DEMAND(D == 2 || !free, body.stiffness.n_local());
   Modes out;
   if (spin != 0.0) out.unstable = count_unstable(problem, free);
   if (out.unstable > 0) return out;
-  if (free) add_rigid(body, problem, spin, out.modes);
+  if constexpr (D == 2)
+    if (free) add_rigid(body, problem, spin, out.modes);
   Lowest lowest(count);
   out.counted = true;
   for (int n = 0; n < problem.n_harmonics(); ++n) {
-    if (free && n == 0 && spin != 0.0)
-      add_rotational(body, problem, spin, out, lowest);
-    else if (!add_harmonic(problem, n, spin, count, lowest))
-      out.counted = false;
+    if constexpr (D == 2) {
+      if (free && n == 0 && spin != 0.0) {
+        add_rotational(body, problem, spin, out, lowest);
+        continue;
+      }
+    }
+    if (!add_harmonic(problem, n, spin, count, lowest)) out.counted = false;
   }
   for (const Candidate& c : lowest.found()) {
     std::vector<Mode> modes = modes_of(body, spin, c.harmonic, c.partner, c.root);
@@ -129,5 +137,8 @@ Modes cyclic_modes(const CyclicBody& body, double spin, int count) {
   out.dimension = problem.dimension();
   return out;
 }
+
+template Modes cyclic_modes(const CyclicBody<2>&, double, int);
+template Modes cyclic_modes(const CyclicBody<3>&, double, int);
 
 }  // namespace rondo::modal

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  One harmonic of a body of equal sectors in constant spin (docs/theory.md, 8.2): with
-/// w = M^½ φ of one sector, A' = A(n) - s² and the Hermitian 2iJ,
-///   (A' - ω² + 2iωsJ) w = 0,                                                              (8.2)
+/// w = M^½ φ of one sector and the Hermitian 2iJ,
+///   (A' - ω² + 2iωsJ) w = 0,    A' = A(n) - s² P                                          (8.2)
 /// where ω may have both signs: w e^{i(nϑ + ωt)} travels clockwise if ω > 0.
 #pragma once
 #include <Eigen/SparseCholesky>
@@ -17,7 +17,7 @@ namespace rondo::modal {
 /// A root of (8.2) and its normalised vector.
 struct HarmonicRoot {
   double omega = 0.0;  ///< has both signs; >= 0 at rest                        [rad/s]
-  Eigen::VectorXcd w;  ///< (2 n_local), polar components, ‖w‖ = 1
+  Eigen::VectorXcd w;  ///< (D n_local), polar components, ‖w‖ = 1
 };
 
 /// Numbers of roots in (0, σ) and in (-σ, 0); at rest both are the same.
@@ -25,19 +25,27 @@ struct RootCounts {
   int positive = 0, negative = 0;
 };
 
-/// 2iJ w: (x, y) of each node becomes 2i (-y, x).
+/// 1 for an unknown in the plane of the body, 0 for an axial one.
+template <int D>
+[[nodiscard]] constexpr double in_plane(Eigen::Index unknown) noexcept {
+  return unknown % D < 2 ? 1.0 : 0.0;
+}
+
+/// 2iJ w: (x, y) of each node becomes 2i (-y, x), and an axial component 0.
+template <int D>
 Eigen::VectorXcd gyroscopic(const Eigen::VectorXcd& w);
 
+template <int D>
 class HarmonicProblem {
  public:
   using Complex = std::complex<double>;
   using Matrix = fem::Harmonics::Matrix;
 
-  HarmonicProblem(const CyclicBody& body, double spin);
+  HarmonicProblem(const CyclicBody<D>& body, double spin);
 
   /// Number of harmonics: N/2 + 1, rounded down.
   [[nodiscard]] int n_harmonics() const noexcept { return harmonics_.count(); }
-  /// Size of the matrices: 2 n_local.
+  /// Size of the matrices: D n_local.
   [[nodiscard]] int size() const noexcept { return static_cast<int>(harmonics_.size()); }
   /// Whether all numbers are finite, so that the problem can be solved.
   [[nodiscard]] bool finite();
@@ -70,7 +78,9 @@ class HarmonicProblem {
   [[nodiscard]] Operator<Complex> in_spin();
   void take_rigid_out(Eigen::Ref<Eigen::VectorXcd> w) const;
 
-  const CyclicBody& body_;
+  [[nodiscard]] const Matrix& spun(double shift);
+
+  const CyclicBody<D>& body_;
   double spin_;
   fem::Harmonics harmonics_;
   int n_ = 0;

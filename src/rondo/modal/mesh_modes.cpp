@@ -183,15 +183,16 @@ Ritz find(const ReducedBody& r, const Search& search, Krylov<double>& space, Ind
 }
 
 Mode mode_of(const ReducedBody& r, std::span<const double> mass, const Eigen::VectorXcd& x) {
-  Mode mode;
-  mode.real.assign(mass.size(), Vec2{});
-  mode.imaginary.assign(mass.size(), Vec2{});
+  std::vector<Vec2> real(mass.size()), imaginary(mass.size());
   for (std::size_t i = 0; i < r.free.size(); ++i) {
     const auto node = static_cast<std::size_t>(r.free[i]);
     const auto at = static_cast<Index>(2 * i);
-    mode.real[node] = {x[at].real(), x[at + 1].real()};
-    mode.imaginary[node] = {x[at].imag(), x[at + 1].imag()};
+    real[node] = {x[at].real(), x[at + 1].real()};
+    imaginary[node] = {x[at].imag(), x[at + 1].imag()};
   }
+  Mode mode;
+  mode.real = std::move(real);
+  mode.imaginary = std::move(imaginary);
   normalise(mode, mass);
   return mode;
 }

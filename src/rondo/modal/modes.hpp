@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Frequencies and shapes of an undamped body at rest or in constant spin
 /// (docs/theory.md, section 8): u = φ e^{iωt} in the co-rotating frame with
-///   (K' - ω² M + 2iωs M J) φ = 0,    K' = K - s² M                                        (8.1)
-/// where K may include the stiffening by the stress of the spin.
+///   (K' - ω² M + 2iωs M J) φ = 0,    K' = K - s² M P                                      (8.1)
+/// where K may include the stiffening by the stress of the spin. P selects the components in the
+/// plane of the body, which are all components of a plane one.
 #pragma once
 #include <span>
 #include <vector>
 
-#include "rondo/core/vec2.hpp"
+#include "rondo/core/field.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/mesh/mesh.hpp"
@@ -23,7 +24,8 @@ struct Mode {
   double growth = 0.0;  ///< γ: 0 except for the rotation of a spinning free disk (8.5) [1/s]
   int diameters = -1;   ///< n: harmonic of a body of equal sectors; -1: unknown
   Wave wave = Wave::unknown;
-  std::vector<Vec2> real, imaginary;  ///< (n) φ, φᴴ M φ = 1, largest component real [(kg/m)^(-1/2)]
+  /// (n) φ with φᴴ M φ = 1, the largest component real [(kg/m)^(-1/2)], in space [kg^(-1/2)]
+  Field real, imaginary;
 };
 
 struct Modes {
@@ -38,11 +40,13 @@ struct Modes {
   int dimension = 0;
 };
 
-/// A body of N equal sectors, clamped at its inner boundary or free (no clamped node).
+/// A body of N equal sectors, clamped at its inner boundary or, in the plane (D = 2), free: no
+/// clamped node. In space (D = 3) it is clamped.
+template <int D>
 struct CyclicBody {
-  const fem::SectorStiffness& stiffness;
-  std::span<const double> mass;     ///< (n) [kg/m]
-  std::span<const Vec2> reference;  ///< (n) X [m]
+  const fem::SectorBlocks<D>& stiffness;
+  std::span<const double> mass;     ///< (n) [kg/m], in space [kg]
+  std::span<const Vec2> reference;  ///< (n) X in the plane of the body [m]
 
   [[nodiscard]] bool free() const noexcept {
     return static_cast<int>(stiffness.n_local()) == stiffness.nodes_per_sector;
@@ -51,7 +55,8 @@ struct CyclicBody {
 
 /// The `count` lowest modes in addition to the rigid-body motions, harmonic by harmonic; one more
 /// if a pair of equal frequencies at rest would be split. @param spin s [rad/s], counter-clockwise
-[[nodiscard]] Modes cyclic_modes(const CyclicBody& body, double spin, int count);
+template <int D>
+[[nodiscard]] Modes cyclic_modes(const CyclicBody<D>& body, double spin, int count);
 
 /// Largest number of degrees of freedom of a sector with which a free disk may spin: harmonic 0 is
 /// then solved as a dense unsymmetric problem (8.5).

@@ -15,7 +15,8 @@ void normalise(Mode& mode, std::span<const double> mass);
 /// The modes of a root of harmonic `n`: a wave; at rest the two standing waves that two opposite
 /// waves form, shifted by a quarter of their length; one standing wave if the harmonic is its own
 /// partner. @param partner 0 < n < N/2
-std::vector<Mode> modes_of(const CyclicBody& body, double spin, int n, bool partner,
+template <int D>
+std::vector<Mode> modes_of(const CyclicBody<D>& body, double spin, int n, bool partner,
                            const HarmonicRoot& root);
 
 }  // namespace rondo::modal

@@ -18,7 +18,7 @@ struct ModalBody {
   fem::BlockCsr stiffness;
   std::vector<double> mass;
 
-  [[nodiscard]] modal::CyclicBody cyclic() const { return {sector, mass, mesh.coordinates}; }
+  [[nodiscard]] modal::CyclicBody<2> cyclic() const { return {sector, mass, mesh.coordinates}; }
   [[nodiscard]] modal::MeshBody any() const { return {mesh, stiffness, mass}; }
 };
 

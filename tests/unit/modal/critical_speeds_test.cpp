@@ -11,8 +11,8 @@
 
 #include "bodies.hpp"
 #include "rondo/fem/harmonics.hpp"
+#include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/mesh/solid/wheel.hpp"
-#include "rondo/modal/solid_critical_spin.hpp"
 
 namespace critical_speeds_test {
 
@@ -22,7 +22,7 @@ using modal::Wave;
 namespace {
 
 /// Lowest frequency of the backward wave with n diameters.
-double backward(const modal::CyclicBody& body, double spin, int n) {
+double backward(const modal::CyclicBody<2>& body, double spin, int n) {
   for (const modal::Mode& mode : modal::cyclic_modes(body, spin, 60).modes)
     if (mode.diameters == n && mode.wave == Wave::backward) return mode.omega;
   return std::numeric_limits<double>::quiet_NaN();
@@ -179,12 +179,15 @@ modal::CriticalSpeed dense_critical_spin(const SolidWheel& w) {
 TEST(SolidCriticalSpin, IsTheLowestOfADenseSolution) {
   const SolidWheel w = solid_wheel(0.45);
   const modal::CriticalSpeed exact = dense_critical_spin(w);
-  EXPECT_FALSE(modal::lowest_critical_spin(w.sector, w.mass, 0.999 * exact.spin).has_value());
-  for (const double spin : {1.001 * exact.spin, -3.0 * exact.spin}) {
-    const auto found = modal::lowest_critical_spin(w.sector, w.mass, spin);
-    ASSERT_TRUE(found.has_value());
-    EXPECT_EQ(found->diameters, exact.diameters);
-    EXPECT_NEAR(found->spin / exact.spin, 1.0, 2.0 * modal::solid_critical_tolerance);
+  const modal::CyclicBody<3> body{w.sector, w.mass, w.mesh.coordinates};
+  EXPECT_TRUE(modal::critical_speeds_up_to(body, 0.999 * exact.spin).empty());
+  for (const double spin : {1.001 * exact.spin, 3.0 * exact.spin}) {
+    const auto found = modal::critical_speeds_up_to(body, spin);
+    ASSERT_FALSE(found.empty());
+    const auto lowest = std::ranges::min_element(found, {}, &modal::CriticalSpeed::spin);
+    EXPECT_EQ(lowest->diameters, exact.diameters);
+    EXPECT_NEAR(lowest->spin / exact.spin, 1.0, 1e-9);
+    EXPECT_LT(lowest->residual, 1e-9);
   }
 }
 
@@ -192,11 +195,11 @@ TEST(SolidCriticalSpin, IsTheLowestOfADenseSolution) {
 TEST(SolidCriticalSpin, IsNotAboveThatOfThePlaneBody) {
   const SolidWheel w = solid_wheel(0.0);
   const fem::SectorStiffness plane = fem::plane_part(w.sector);
-  const auto of_plane = modal::critical_speeds({plane, w.mass, w.mesh.coordinates}, nullptr, 6);
+  const auto of_plane = modal::critical_speeds<2>({plane, w.mass, w.mesh.coordinates}, nullptr, 6);
   const auto lowest = std::ranges::min_element(of_plane, {}, &modal::CriticalSpeed::spin);
-  const auto found = modal::lowest_critical_spin(w.sector, w.mass, 1.0001 * lowest->spin);
-  ASSERT_TRUE(found.has_value());
-  EXPECT_LE(found->spin, 1.0001 * lowest->spin);
+  const auto found = modal::critical_speeds_up_to<3>({w.sector, w.mass, w.mesh.coordinates},
+                                                     1.0001 * lowest->spin);
+  EXPECT_FALSE(found.empty());
 }
 
 }  // namespace critical_speeds_test

@@ -34,7 +34,8 @@ void expect_equal(const std::vector<double>& found, const std::vector<double>& e
 
 double product(const test::ModalBody& b, const modal::Mode& p, const modal::Mode& q) {
   double sum = 0.0;
-  for (std::size_t i = 0; i < b.mass.size(); ++i) sum += b.mass[i] * dot(p.real[i], q.real[i]);
+  for (std::size_t i = 0; i < b.mass.size(); ++i)
+    sum += b.mass[i] * dot(p.real.plane()[i], q.real.plane()[i]);
   return sum;
 }
 
@@ -115,7 +116,8 @@ double advance(const test::ModalBody& b, const modal::Mode& mode) {
     for (std::size_t i = 0; i < b.mass.size(); ++i) {
       const Vec2 x = b.mesh.coordinates[i];
       if (norm(x) < 0.3 - 1e-9) continue;
-      const Vec2 u = std::cos(phase) * mode.real[i] - std::sin(phase) * mode.imaginary[i];
+      const Vec2 u =
+          std::cos(phase) * mode.real.plane()[i] - std::sin(phase) * mode.imaginary.plane()[i];
       sum += dot(u, x) * std::polar(1.0, -mode.diameters * std::atan2(x.y, x.x));
     }
     return sum;
@@ -189,9 +191,9 @@ TEST(Modes, OfEqualBodiesEachIsThere) {
 
 TEST(Modes, RootsAreCountedBeforeTheyAreSought) {
   const auto b = test::body_of(test::ring(3, 24));
-  const modal::CyclicBody body = b.cyclic();
+  const modal::CyclicBody<2> body = b.cyclic();
   for (const double spin : {60.0, -60.0}) {
-    modal::HarmonicProblem problem(body, spin);
+    modal::HarmonicProblem<2> problem(body, spin);
     for (const int n : {0, 2, 5, 12}) {
       problem.choose(n);
       const int all = problem.size();

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <complex>
+#include <numbers>
 
 #include "support/solid_steady.hpp"
 
@@ -159,6 +160,54 @@ TEST(SteadySolidHarmonics, TheSpinOfTheStateAtRestIsNoLoad) {
   body.rest_spin = -0.5 * body.spin;
   const Eigen::Vector3d part = RollingHarmonics<3>(body).displacement(1, 0, {});
   EXPECT_LT((part - 0.75 * whole).norm(), 1e-12 * whole.norm());
+}
+
+/// Masses that nothing accelerates do not matter, but for the softening by the spin; without rates
+/// a slow wheel shows the same.
+TEST(SteadySolidHarmonics, WithoutInertiaASpinningWheelIsThatOfAnInfinitelySlowOne) {
+  test::SteadyWheelCase c = small_case();
+  c.stiffness_damping = 0.0;
+  const test::SteadyWheel fast(c);
+  RollingBody<3> body = fast.harmonics.body();
+  body.rest_spin = body.spin;
+  body.inertia = RollingInertia::none;
+  const RollingHarmonics<3> still(body);
+  body.spin = body.rest_spin = 1e-4;
+  body.inertia = RollingInertia::all;
+  const RollingHarmonics<3> slow(body);
+  const double size = slow.compliance(1, 1, 0).norm();
+  for (const int ahead : {0, 1, 5}) {
+    EXPECT_LT((still.compliance(1, 1, ahead) - slow.compliance(1, 1, ahead)).norm(), 3e-4 * size);
+    EXPECT_GT((fast.harmonics.compliance(1, 1, ahead) - slow.compliance(1, 1, ahead)).norm(),
+              1e-3 * size);
+  }
+}
+
+/// With one sample the sectors resolve all harmonics; with two the upper half follows at once.
+TEST(SteadySolidHarmonics, WavesAreTheHarmonicsUpToHalfTheSectors) {
+  for (const int samples : {1, 2}) {
+    const test::SteadyWheel w(small_case(samples));
+    RollingBody<3> body = w.harmonics.body();
+    body.inertia = RollingInertia::waves;
+    const RollingHarmonics<3> waves(body);
+    body.inertia = RollingInertia::none;
+    const RollingHarmonics<3> none(body);
+    const auto of_harmonic = [&](const RollingHarmonics<3>& h, int k) {
+      NodeMatrix<3> sum = NodeMatrix<3>::Zero();
+      for (int m = 0; m < h.turn(); ++m)
+        sum += std::cos(2.0 * std::numbers::pi * k * m / h.turn()) * h.compliance(1, 1, m);
+      return sum;
+    };
+    for (int k = 0; k <= w.harmonics.turn() / 2; ++k) {
+      const NodeMatrix<3> has = of_harmonic(waves, k);
+      const auto& as = 2 * k <= body.stiffness.n_sectors ? w.harmonics : none;
+      EXPECT_LT((has - of_harmonic(as, k)).norm(), 1e-10 * has.norm()) << samples << " " << k;
+    }
+    const int high = w.harmonics.turn() / 2 - 1;
+    const NodeMatrix<3> difference = of_harmonic(waves, high) - of_harmonic(w.harmonics, high);
+    const bool same = difference.norm() < 1e-9 * of_harmonic(waves, high).norm();
+    EXPECT_EQ(same, samples == 1);
+  }
 }
 
 TEST(SteadySolid, SlopesAreThoseOfDifferences) {

@@ -8,79 +8,39 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "rondo/analysis/base/analysis.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/build/memory.hpp"
-#include "rondo/analysis/build/overlap.hpp"
-#include "rondo/analysis/build/physical.hpp"
-#include "rondo/analysis/build/plausible/number_range.hpp"
+#include "rondo/analysis/build/tyre/inflation_members.hpp"
 #include "rondo/analysis/modes/modes_output.hpp"
+#include "rondo/analysis/modes/modes_solver.hpp"
 #include "rondo/analysis/run.hpp"
 #include "rondo/core/error.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/mode_files.hpp"
-#include "rondo/modal/residual.hpp"
-#include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
 namespace {
 
-/// The data that the modes depend on.
-struct Body {
-  mesh::Mesh mesh;
-  std::vector<double> mass;
-  std::vector<fem::Material> materials;
-  double largest_frequency = 0.0;       ///< an upper bound [rad/s]
-  int free = 0;                         ///< bodies that nothing holds
-  bool wide_rows = false;               ///< has_wide_rows()
-  std::vector<std::string> warnings{};  ///< warnings of the case and the mesh
-
-  [[nodiscard]] bool cyclic() const noexcept { return mesh.n_sectors > 0; }
-};
-
-Body make_body(const Case& c) {
-  if (is_solid(c))
-    throw case_error(c, c.section ? "section" : "disk.width",
-                     "modes are computed for plane bodies, not for a wheel in three dimensions",
-                     "a [disk] without disk.width; `rondo check` tells the largest frequency");
-  Body b;
-  b.warnings = c.warnings;
-  if (c.rim && (c.rim->free_x || c.rim->free_y || c.rim->free_spin))
-    b.warnings.emplace_back(
-        "[rim] has no effect on modes: they are those of the body with its rim held");
-  b.mesh = build_mesh(c, &b.warnings);
-  refuse_overlaps(c, {b.mesh, b.mesh.coordinates, c.body_contact.between != BodyContact::none},
-                  b.warnings);
-  b.materials = materials_of(c, b.mesh);
-  if (has_rubber(c))
-    b.warnings.emplace_back(
-        "the modes of rubber are those of small strain about the undeformed body, by its moduli "
-        "for slow strains");
-  warn_of_units(c, b.mesh, b.materials, b.warnings);
-  b.mass = fem::lumped_mass(b.mesh, b.materials);
-  b.wide_rows = has_wide_rows(c, b.mesh);
-  b.free = static_cast<int>(modal::free_bodies(b.mesh).size());
-  b.largest_frequency = std::sqrt(b.cyclic() ? fem::sector_eigenvalue_bound(b.mesh, b.materials)
-                                             : fem::element_eigenvalue_bound(b.mesh, b.materials));
-  if (!(b.largest_frequency > 0.0) || !std::isfinite(b.largest_frequency))
-    throw case_error(c, furthest_key(c),
-                     fmt::format("with this number and mesh the largest frequency is {} rad/s, out "
-                                 "of the range of floating-point numbers",
-                                 b.largest_frequency),
-                     "a modulus and a density in SI units");
-  demand_harmonic_range(c, b.materials, b.mass, b.largest_frequency);
-  return b;
+double outer_radius(const Case& c, const ModesBody& b) {
+  if (is_generated(c) && !c.inflation) return c.disk.outer_radius;
+  double radius = 0.0;
+  for (const int node : b.mesh.boundary)
+    radius = std::max(radius, norm(b.mesh.coordinates[at(node)]));
+  return radius;
 }
 
 /// The spins of the modes whose shapes are kept: each once, in the order given.
-std::vector<double> chosen_spins(const Case& c, const Body& b, const ModesRequest& request) {
+std::vector<double> chosen_spins(const Case& c, const ModesBody& b, const ModesRequest& request) {
   std::vector<double> spins = request.spins;
   if (spins.empty()) {
     spins.push_back(0.0);
-    if (b.free == 0) spins.push_back(c.motion.angular_velocity.at(0.0));
+    if (b.free == 0 && !request.standing) spins.push_back(c.motion.angular_velocity.at(0.0));
   }
   std::vector<double> once;
   for (const double spin : spins)
@@ -115,7 +75,17 @@ std::vector<double> sweep_spins(const ModesRequest& request) {
   return spins;
 }
 
-void check_spins(const Case& c, const Body& b, const std::string& option,
+void check_standing(const Case& c, const ModesRequest& request, const std::vector<double>& spins) {
+  if (!request.standing) return;
+  if (!is_solid(c))
+    throw request_error("--standing", "", "is for wheels in three dimensions",
+                        "a case with [section] or disk.width; or no --standing");
+  if (!request.sweep.empty() || std::ranges::any_of(spins, [](double s) { return s != 0.0; }))
+    throw request_error("--standing", "", "a wheel that stands does not turn",
+                        "--spin 0, or neither --spin nor --spins");
+}
+
+void check_spins(const Case& c, const ModesBody& b, const std::string& option,
                  const std::vector<double>& spins) {
   const std::size_t sector_dofs =
       b.cyclic() ? 2 * b.mesh.n_nodes() / static_cast<std::size_t>(b.mesh.n_sectors) : 0;
@@ -144,80 +114,6 @@ void check_spins(const Case& c, const Body& b, const std::string& option,
   }
 }
 
-/// Modes at one spin, with their residuals.
-struct Solved {
-  modal::Modes found;
-  std::vector<double> residuals;
-};
-
-/// One mesh, several spins. The stress of a spin s, and so its stiffness, is s² that of a unit
-/// spin.
-class Solver {
- public:
-  Solver(const Case& c, const Body& body) : body_(body) {
-    assemble(0.0);
-    if (c.stress_stiffening == StressStiffening::none || body.free > 0) return;
-    const std::vector<int> free = fem::free_nodes(body.mesh);
-    auto unit = body.cyclic()
-                    ? statics::centrifugal_prestress(sector_, body.mass, body.mesh.coordinates, 1.0)
-                    : statics::centrifugal_prestress(stiffness_, body.mass, body.mesh.coordinates,
-                                                     free, 1.0);
-    if (unit.status != statics::SpinStatus::solved)
-      throw case_error(c, "material.stress_stiffening",
-                       "the stress of the spin was not found: the stiffness is not positive "
-                       "definite to round-off",
-                       "\"none\", or a material and a mesh in SI units");
-    unit_prestress_ = to_vector(unit.u.plane());
-  }
-
-  [[nodiscard]] Solved modes(double angular_velocity, int count) {
-    const double spin = -angular_velocity;
-    if (!unit_prestress_.empty()) assemble(spin);
-    const auto solve = [&](const auto& body, auto&& modes_of) {
-      Solved s{modes_of(body, spin, count), {}};
-      for (const modal::Mode& mode : s.found.modes)
-        s.residuals.push_back(modal::residual(body, spin, mode));
-      return s;
-    };
-    if (body_.cyclic()) return solve(cyclic(), modal::cyclic_modes);
-    return solve(modal::MeshBody{body_.mesh, stiffness_, body_.mass}, modal::mesh_modes);
-  }
-
-  [[nodiscard]] std::vector<modal::CriticalSpeed> critical(int last) {
-    if (!body_.cyclic()) return {};
-    if (unit_prestress_.empty()) return modal::critical_speeds(cyclic(), nullptr, last);
-    // The prestress of this spin is as large as the elastic stiffness: the difference is exact.
-    const double spin = body_.largest_frequency;
-    assemble(spin);
-    fem::SectorStiffness unit = std::move(sector_);
-    assemble(0.0);
-    for (std::size_t e = 0; e < unit.entries.size(); ++e)
-      for (std::size_t i = 0; i < 4; ++i)
-        unit.entries[e].block[i] =
-            (unit.entries[e].block[i] - sector_.entries[e].block[i]) / (spin * spin);
-    return modal::critical_speeds(cyclic(), &unit, last);
-  }
-
- private:
-  void assemble(double spin) {
-    std::vector<Vec2> prestress;
-    if (spin != 0.0)
-      for (const Vec2 u : unit_prestress_) prestress.push_back(spin * spin * u);
-    if (body_.cyclic())
-      sector_ = fem::assemble_sector(body_.mesh, body_.materials, prestress);
-    else
-      stiffness_ = fem::assemble_stiffness(body_.mesh, body_.materials, prestress);
-  }
-  [[nodiscard]] modal::CyclicBody cyclic() const {
-    return {sector_, body_.mass, body_.mesh.coordinates};
-  }
-
-  const Body& body_;
-  std::vector<Vec2> unit_prestress_;  ///< (n) at 1 rad/s [m]; empty: no stiffening
-  fem::SectorStiffness sector_;
-  fem::BlockCsr stiffness_;
-};
-
 SpinSummary summarise_spin(double angular_velocity, const modal::Modes& found) {
   SpinSummary s;
   s.angular_velocity = angular_velocity;
@@ -232,30 +128,33 @@ SpinSummary summarise_spin(double angular_velocity, const modal::Modes& found) {
   return s;
 }
 
-void add_lines(double angular_velocity, const Solved& s, ModesReport& report,
+void add_lines(double angular_velocity, const SolvedModes& s, ModesReport& report,
                std::vector<ModeLine>& lines) {
   for (std::size_t i = 0; i < s.found.modes.size(); ++i) {
     const modal::Mode& mode = s.found.modes[i];
-    lines.push_back({angular_velocity, mode.omega, mode.diameters, mode.wave, s.residuals[i]});
+    lines.push_back({angular_velocity, mode.omega, mode.diameters, mode.wave, s.residuals[i],
+                     s.damping_ratios[i]});
     report.residual_max = std::max(report.residual_max, s.residuals[i]);
   }
 }
 
 /// At its largest; an estimate [B].
-std::size_t memory_of(const Body& body, const ModesRequest& request, std::size_t spins) {
-  const std::size_t nodes = body.mesh.n_nodes(), dofs = 2 * nodes;
+std::size_t memory_of(const ModesBody& body, const ModesRequest& request, std::size_t spins) {
+  const std::size_t nodes = body.mesh.n_nodes(), dofs = body.components() * nodes;
   const auto at_once = static_cast<std::size_t>(request.count);
   // Complex shapes, kept and as they are written.
-  const std::size_t bytes = mesh_memory(nodes) + (spins + 1) * at_once * nodes * 2 * sizeof(Vec2);
-  if (body.cyclic()) return bytes;   // what one sector has is small
+  const std::size_t bytes = mesh_memory(nodes) + (spins + 1) * at_once * dofs * 2 * sizeof(double);
   constexpr std::size_t spare = 50;  // vectors of the space beyond twice the modes
+  if (request.standing) return bytes + (3 * at_once + 6 * spare) * dofs * sizeof(double);
+  if (body.cyclic()) return bytes;  // what one sector has is small
   return bytes + stiffness_memory(nodes, body.wide_rows) + factor_memory(dofs, body.wide_rows) +
          (2 * at_once + spare) * dofs * sizeof(double);
 }
 
 /// Bytes of modes.h5: shapes, and what ParaView reads of them.
-std::size_t shapes_on_disk(const Body& body, const ModesRequest& request, std::size_t spins) {
-  constexpr std::size_t bytes_of_a_node = 2 * sizeof(Vec2) + 2 * 3 * sizeof(float);
+std::size_t shapes_on_disk(const ModesBody& body, const ModesRequest& request, std::size_t spins) {
+  const std::size_t bytes_of_a_node =
+      2 * body.components() * sizeof(double) + 2 * 3 * sizeof(float);
   return spins * static_cast<std::size_t>(request.count) * body.mesh.n_nodes() * bytes_of_a_node;
 }
 
@@ -266,22 +165,24 @@ class ModesAnalysis final : public Analysis {
   ModesAnalysis(const Case& c, const ModesRequest& request)
       : case_(c),
         request_(request),
-        body_(make_body(c)),
+        body_(make_modes_body(c)),
         spins_(chosen_spins(c, body_, request)),
         sweep_(sweep_spins(request)) {
+    check_standing(c, request, spins_);
     check_spins(c, body_, request.spins.empty() ? "motion.angular_velocity" : "--spin", spins_);
     check_spins(c, body_, "--spins", sweep_);
     demand_memory(c, body_.mesh.n_nodes(), memory_of(body_, request, spins_.size()));
     report_.directory = request.run.directory;
     report_.nodes = body_.mesh.n_nodes();
-    report_.dofs = 2 * fem::free_nodes(body_.mesh).size();
-    if (body_.cyclic()) report_.outer_radius = c.disk.outer_radius;
+    report_.dofs = body_.components() * fem::free_nodes(body_.mesh).size();
+    report_.standing = request.standing;
+    if (body_.cyclic()) report_.outer_radius = outer_radius(c, body_);
   }
 
   [[nodiscard]] CheckReport check(double) override {
     CheckReport r;
     r.nodes = report_.nodes;
-    r.elements = body_.mesh.cells.size();
+    r.elements = body_.mesh.n_elements();
     r.dofs = report_.dofs;
     r.steps = progress().all;
     r.memory_bytes = memory_of(body_, request_, spins_.size());
@@ -297,10 +198,12 @@ class ModesAnalysis final : public Analysis {
   [[nodiscard]] std::vector<std::string> warnings() const override { return body_.warnings; }
   void describe(Json& json) const override {
     describe_modes(report_, spins_.size() + sweep_.size(), json);
+    if (body_.inflation) add_inflation(*body_.inflation, json);
   }
 
   Progress begin(Recorder&) override {
-    solver_.emplace(case_, body_);
+    solver_ =
+        is_solid(case_) ? solid_modes(case_, body_, request_.standing) : plane_modes(case_, body_);
     return progress();
   }
   Progress advance(Recorder&) override {
@@ -313,7 +216,7 @@ class ModesAnalysis final : public Analysis {
       if (report_.spins.size() == spins_.size()) write_shapes();
     } else {
       const double spin = sweep_[report_.sweep.size()];
-      const Solved s = solver_->modes(spin, request_.count);
+      const SolvedModes s = solver_->modes(spin, request_.count);
       report_.sweep.push_back(summarise_spin(spin, s.found));
       judge(report_.sweep.back());
       add_lines(spin, s, report_, sweep_lines_);
@@ -324,8 +227,11 @@ class ModesAnalysis final : public Analysis {
   [[nodiscard]] const std::optional<std::string>& trouble() const override { return trouble_; }
   void close() override {
     report_.critical = solver_->critical(request_.diameters);
-    if (body_.cyclic())
+    if (const std::string note = solver_->critical_note(); !note.empty()) say(note);
+    report_.on_ground = solver_->standing();
+    if (body_.cyclic() && !request_.standing)
       io::write_file(request_.run.directory / "critical-speeds.csv", critical_table(report_));
+    warn_of_critical_spin();
     if (!wrong_ && !(report_.residual_max <= mode_residual_bound))
       wrong_ = fmt::format("a mode fulfils its equation to {:.1e} only, bound {:.0e}",
                            report_.residual_max, mode_residual_bound);
@@ -369,20 +275,34 @@ class ModesAnalysis final : public Analysis {
     said_.push_back(text);
   }
   void judge(const SpinSummary& s);
+  void warn_of_critical_spin();
 
   const Case& case_;
   const ModesRequest& request_;
   const std::chrono::steady_clock::time_point made_ = std::chrono::steady_clock::now();
-  const Body body_;
+  const ModesBody body_;
   const std::vector<double> spins_, sweep_;  ///< [rad/s]
-  std::optional<Solver> solver_;
-  std::vector<Solved> solved_;         ///< results of spins_
+  std::unique_ptr<ModesSolver> solver_;
+  std::vector<SolvedModes> solved_;    ///< results of spins_
   std::vector<ModeLine> sweep_lines_;  ///< lines of sweep_
   ModesReport report_;
   std::vector<std::string> said_;     ///< warnings
   std::optional<std::string> wrong_;  ///< the first thing, which ends nothing but counts at the end
   std::optional<std::string> trouble_;
 };
+
+/// If the body of the case turns as fast as a wave that stands still in space.
+void ModesAnalysis::warn_of_critical_spin() {
+  if (report_.critical.empty() || body_.free > 0) return;
+  const auto lowest = std::ranges::min_element(report_.critical, {}, &modal::CriticalSpeed::spin);
+  const double spin = std::abs(case_.motion.angular_velocity.at(0.0));
+  if (spin < lowest->spin) return;
+  say(
+      fmt::format("motion.angular_velocity: {:.6g} rad/s is above the critical speed {:.5g} rad/s "
+                  "({} nodal diameters), at which a wave stands still in space: on the ground only "
+                  "damping limits the deformation",
+                  spin, lowest->spin, lowest->diameters));
+}
 
 /// Tells what went wrong, or less well than the user may think.
 void ModesAnalysis::judge(const SpinSummary& s) {

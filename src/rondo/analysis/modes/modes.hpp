@@ -2,9 +2,11 @@
 /// @file  rondo modes: frequencies, shapes and critical speeds of a case's body (docs/modes.md).
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/modes/standing.hpp"
 #include "rondo/case/case.hpp"
 #include "rondo/modal/critical_speeds.hpp"
 #include "rondo/modal/modes.hpp"
@@ -18,6 +20,7 @@ struct ModesRequest {
   std::vector<double> spins;  ///< angular velocities ω; none: rest, and that of the case [rad/s]
   std::string sweep;          ///< "FROM:TO:NUMBER": a Campbell table; empty: none
   int diameters = 12;         ///< largest n of the critical speeds
+  bool standing = false;      ///< a wheel in three dimensions is held where it touches the ground
 };
 
 /// A line of modes.csv.
@@ -27,6 +30,7 @@ struct ModeLine {
   int diameters = -1;             ///< -1: unknown
   modal::Wave wave = modal::Wave::unknown;
   double residual = 0.0;
+  double damping_ratio = 0.0;  ///< NaN of a rigid-body motion
 };
 
 struct SpinSummary {
@@ -41,7 +45,9 @@ struct ModesReport {
   std::vector<ModeLine> modes;
   std::vector<SpinSummary> spins, sweep;
   std::vector<modal::CriticalSpeed> critical;
-  double outer_radius = 0.0;  ///< [m]; 0: no disk
+  bool standing = false;
+  std::optional<Standing> on_ground{};  ///< how, of a wheel that stands
+  double outer_radius = 0.0;            ///< [m]; 0: no disk
   std::size_t nodes = 0, dofs = 0;
   double residual_max = 0.0;
   double wall_s = 0.0;

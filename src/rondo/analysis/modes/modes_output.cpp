@@ -72,12 +72,14 @@ std::string name_of(Wave wave) {
 }
 
 std::string modes_table(const std::vector<ModeLine>& modes) {
-  std::string text = "mode,frequency_rad_s,frequency_hz,nodal_diameters,wave,spin_rad_s,residual\n";
+  std::string text =
+      "mode,frequency_rad_s,frequency_hz,nodal_diameters,wave,spin_rad_s,residual,damping_ratio\n";
   int number = 0;
   for (const ModeLine& m : modes)
-    text +=
-        fmt::format("{},{},{},{},{},{},{}\n", ++number, m.omega, m.omega / (2.0 * std::numbers::pi),
-                    diameters_text(m.diameters), name_of(m.wave), m.angular_velocity, m.residual);
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{}\n", ++number, m.omega, m.omega / (2.0 * std::numbers::pi),
+        diameters_text(m.diameters), name_of(m.wave), m.angular_velocity, m.residual,
+        std::isnan(m.damping_ratio) ? std::string() : fmt::to_string(m.damping_ratio));
   return text;
 }
 
@@ -121,6 +123,11 @@ Json modes_json(const Case& c, const ModesRequest& request, const ModesReport& r
   j["stress_stiffening"] =
       c.stress_stiffening == StressStiffening::centrifugal ? "centrifugal" : "none";
   j["outer_radius"] = r.outer_radius;
+  if (r.on_ground) {
+    j["standing"]["height"] = r.on_ground->height;
+    j["standing"]["load"] = r.on_ground->load;
+    j["standing"]["nodes"] = r.on_ground->nodes;
+  }
   for (const SpinSummary& s : r.spins) j["spins"].push_back(summary_of(s));
   for (const SpinSummary& s : r.sweep) j["sweep"].push_back(summary_of(s));
   j["residual_max"] = r.residual_max;

@@ -162,7 +162,7 @@ std::string SteadyRolling::wrong_state() const {
 }
 
 std::vector<std::string> SteadyRolling::warnings_of_state() const {
-  std::vector<std::string> all{scheme_warning(case_, state_->power())};
+  std::vector<std::string> all{scheme_warning(case_, state_->power()), state_->warning()};
   const std::optional<Wall> wall = wall_of(body_->mesh);
   if (case_.analysis.load && wall)
     all.push_back(hardly_pressed("analysis.load", state_->deflection(), wall->radius));

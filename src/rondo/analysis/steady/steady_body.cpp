@@ -12,7 +12,6 @@
 #include "rondo/analysis/build/tyre/wheel_at_rest.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/modal/critical_speeds.hpp"
-#include "rondo/modal/solid_critical_spin.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -33,18 +32,13 @@ void add_stress_stiffening(const Case& c, SteadyBody<2>& b) {
   b.sector = fem::assemble_sector(b.mesh, b.materials, found.u);
 }
 
-void warn_of_critical_spin(const Case& c, SteadyBody<2>& b) {
-  const double spin = std::abs(spin_of(c));
-  const auto found = modal::critical_speeds_up_to({b.sector, b.mass, b.mesh.coordinates}, spin);
+template <int D>
+void warn_of_critical_spin(const Case& c, SteadyBody<D>& b) {
+  const auto found =
+      modal::critical_speeds_up_to<D>({b.sector, b.mass, b.mesh.coordinates}, std::abs(spin_of(c)));
   if (found.empty()) return;
-  const auto lowest =
-      std::ranges::min_element(found, [](const auto& x, const auto& y) { return x.spin < y.spin; });
-  b.warnings.push_back(above_critical_spin(c, *lowest));
-}
-
-void warn_of_critical_spin(const Case& c, SteadyBody<3>& b) {
-  const auto lowest = modal::lowest_critical_spin(b.sector, b.mass, spin_of(c));
-  if (lowest) b.warnings.push_back(above_critical_spin(c, *lowest));
+  b.warnings.push_back(
+      above_critical_spin(c, *std::ranges::min_element(found, {}, &modal::CriticalSpeed::spin)));
 }
 
 /// (n_local) in the frame of the sector: the curves of a disk are the same in all.
@@ -74,6 +68,18 @@ void demand_rows_below(const Case& c, const SteadyBody<D>& b) {
                      "the nodes below the contact nodes are held by the rim",
                      "at least 2 elements between tread and rim; or analysis.massless_contact = "
                      "false with analysis.samples_per_sector = 1");
+}
+
+statics::RollingInertia inertia_of(const Case& c) {
+  switch (c.analysis.inertia) {
+    case RollingMasses::waves:
+      return statics::RollingInertia::waves;
+    case RollingMasses::none:
+      return statics::RollingInertia::none;
+    case RollingMasses::all:
+      break;
+  }
+  return statics::RollingInertia::all;
 }
 
 double radius_of(const Case& c, const mesh::Mesh& mesh) {
@@ -140,16 +146,18 @@ void SteadyBody<D>::find_harmonics(const Case& c, int threads) {
                                             .stiffness_damping = c.damping.stiffness,
                                             .samples = c.analysis.samples_per_sector,
                                             .massless = c.analysis.massless_contact,
+                                            .inertia = inertia_of(c),
                                             .load = load_of(c, *this),
                                             .threads = threads_for(c, *this, threads)});
-  if constexpr (D == 2) window.emplace(window_of(c));
+  if constexpr (D == 2) window.emplace(window_of(c, slip_of(c)));
   harmonics_wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 template <int D>
-statics::RollingWindow<D> SteadyBody<D>::window_of(const Case& c) const {
-  if (window) return *window;
-  return {*harmonics, slip_of(c), c.motion.camber, c.motion.gravity.at(0.0)};
+statics::RollingWindow<D> SteadyBody<D>::window_of(const Case& c,
+                                                   statics::SlipDifference slip) const {
+  if (window && slip == slip_of(c)) return *window;
+  return {*harmonics, slip, c.motion.camber, c.motion.gravity.at(0.0)};
 }
 
 template class SteadyBody<2>;

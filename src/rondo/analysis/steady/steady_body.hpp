@@ -22,8 +22,9 @@ class SteadyBody final : public RolledBody {
   [[nodiscard]] std::unique_ptr<RolledState> solve(const Case& c) const override;
   void add_columns(RecordPlan& plan) const override;
   /// The window of one state. In the plane it is a copy of the window of the body, because camber
-  /// and weight are the same in all states.
-  [[nodiscard]] statics::RollingWindow<D> window_of(const Case& c) const;
+  /// and weight are the same in all states, unless the slip is another than the case's.
+  [[nodiscard]] statics::RollingWindow<D> window_of(const Case& c,
+                                                    statics::SlipDifference slip) const;
 
   fem::SectorBlocks<D> sector;
   double radius = 0.0;  ///< outer, undeformed [m]

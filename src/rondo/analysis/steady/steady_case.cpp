@@ -19,8 +19,9 @@ namespace {
 /// Equal for cases that share harmonics.
 std::string harmonics_key(const Case& c) {
   const AnalysisCase& a = c.analysis;
-  std::string key = fmt::format("{}\n{:a} {:a} {:a} {} {}", body_key(c), spin_of(c), c.damping.mass,
-                                c.damping.stiffness, a.samples_per_sector, a.massless_contact);
+  std::string key = fmt::format("{}\n{:a} {:a} {:a} {} {} {}", body_key(c), spin_of(c),
+                                c.damping.mass, c.damping.stiffness, a.samples_per_sector,
+                                a.massless_contact, static_cast<int>(a.inertia));
   // In three dimensions both come with the state.
   if (!is_solid(c))
     key += fmt::format(" {:a} {}", c.motion.gravity.at(0.0), static_cast<int>(a.slip));

@@ -55,6 +55,8 @@ class RolledState {
   [[nodiscard]] virtual double deflection() const = 0;
   /// Where power goes. @pre it is solved
   [[nodiscard]] virtual const statics::RollingPower& power() const noexcept = 0;
+  /// Of the accuracy of a solved state, for the user; empty: none.
+  [[nodiscard]] virtual std::string warning() const = 0;
   /// Adds "steady" to run.json.
   virtual void describe(Json& json) const = 0;
   /// Forces, height, speed and slip, for the user.

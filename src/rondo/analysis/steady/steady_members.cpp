@@ -95,6 +95,22 @@ constexpr JsonMember<statics::RollingPower> power_rows[] = {
      [](const statics::RollingPower& p) -> Json { return p.residual; }},
 };
 
+/// Of steady rolling in the plane, or of a wheel in three dimensions.
+struct OfSlip {
+  const SlipError& e;
+  bool solid;
+};
+constexpr JsonMember<OfSlip> slip_error_rows[] = {
+    {"force_x", "number", "N/m", "Of `force_x`",
+     [](const OfSlip& s) -> Json { return s.e.difference.heading; }},
+    {"force_lateral", "number", "N", "Of `force_lateral`, of a 3D wheel",
+     [](const OfSlip& s) { return s.solid ? Json(s.e.difference.lateral) : absent(); }},
+    {"moment_aligning", "number", "N·m", "Of `moment_aligning`, of a 3D wheel",
+     [](const OfSlip& s) { return s.solid ? Json(s.e.difference.aligning) : absent(); }},
+    {"share", "number", "", "Of the force along the ground, over the mean of both",
+     [](const OfSlip& s) -> Json { return s.e.share; }},
+};
+
 Json solid_only(const SteadyFigures& k, double value) {
   return k.solid ? Json(value) : absent();
 }
@@ -156,6 +172,13 @@ constexpr JsonMember<SteadyFigures> figures_rows[] = {
      "|`scheme`| of `power` over the largest of `drive`, damping (`mass` + `stiffness`) and "
      "`friction`; 0 if it is round-off",
      [](const SteadyFigures& k) -> Json { return k.power.scheme_share; }},
+    {"slip_error", "object", "",
+     "Values with `analysis.slip` = \"upwind\" less those with \"bdf2\": the error of the "
+     "discretisation",
+     [](const SteadyFigures& k) {
+       return k.slip_error ? object_of(slip_error_rows, {*k.slip_error, k.solid}) : absent();
+     },
+     [] { return texts_of(slip_error_rows); }},
     {"residual", "number", "", "Residual of the contact law, over the largest force",
      [](const SteadyFigures& k) -> Json { return k.s.residual; }},
     {"newton_steps", "integer", "", "Newton steps of the solver",

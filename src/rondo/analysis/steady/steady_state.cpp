@@ -38,7 +38,7 @@ template <int D>
 SteadyState<D>::SteadyState(const Case& c, const SteadyBody<D>& body)
     : case_(c),
       body_(body),
-      window_(body.window_of(c)),
+      window_(body.window_of(c, slip_of(c))),
       drive_(drive_of(c, body.radius)),
       candidate_of_(body.mesh.n_nodes()),
       sums_(static_cast<std::size_t>(c.analysis.samples_per_sector)) {
@@ -68,6 +68,20 @@ void SteadyState<D>::solve() {
   spectrum_ = statics::spectrum_of(window_, solution_);
   power_ = statics::rolling_power(window_, solution_, spectrum_);
   u_ = window_.harmonics().fields(spectrum_, 0.0, false);
+  if (case_.analysis.estimate_slip_error) estimate_slip_error();
+}
+
+/// By the same state with the other difference.
+template <int D>
+void SteadyState<D>::estimate_slip_error() {
+  using statics::SlipDifference;
+  const bool is_upwind = slip_of(case_) == SlipDifference::upwind;
+  statics::RollingWindow<D> other =
+      body_.window_of(case_, is_upwind ? SlipDifference::bdf2 : SlipDifference::upwind);
+  const statics::RollingSolution found = statics::solve_rolling(other, drive_);
+  if (found.end != statics::RollingEnd::solved) return;
+  slip_error_ = is_upwind ? slip_error_of(solution_.forces, found.forces)
+                          : slip_error_of(found.forces, solution_.forces);
 }
 
 template <int D>

@@ -3,9 +3,11 @@
 /// sector's pass (docs/theory.md, 11.3 and 11.4, and docs/wheel3d.md), in the plane (D = 2), where
 /// all is per metre of width, or in space.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/steady/slip_error.hpp"
 #include "rondo/analysis/steady/steady_body.hpp"
 #include "rondo/output/columns.hpp"
 
@@ -38,6 +40,9 @@ class SteadyState final : public RolledState {
   }
   [[nodiscard]] double deflection() const override { return window_.lowest() - solution_.height; }
   [[nodiscard]] const statics::RollingPower& power() const noexcept override { return power_; }
+  [[nodiscard]] std::string warning() const override {
+    return slip_warning(case_, slip_error_, solution_.forces);
+  }
   void describe(Json& json) const override;
   [[nodiscard]] std::vector<std::string> notes() const override;
 
@@ -50,6 +55,7 @@ class SteadyState final : public RolledState {
   [[nodiscard]] double slip_ratio() const noexcept;
   [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;
   void solve();
+  void estimate_slip_error();
   void refuse() const;
   [[nodiscard]] std::string nothing_touches() const;
   [[nodiscard]] std::string why_it_slides() const;
@@ -81,6 +87,7 @@ class SteadyState final : public RolledState {
   statics::RollingSolution solution_;
   Eigen::MatrixXcd spectrum_;
   statics::RollingPower power_;
+  std::optional<SlipError> slip_error_;    ///< none: not asked for, or not found
   Eigen::MatrixXd u_, rate_;               ///< (D n_local, L); rates once a place is filled
   std::vector<std::size_t> candidate_of_;  ///< (n) place in mesh.boundary
   std::vector<double> extent_;             ///< (pairs) deformed length or area, where pressed

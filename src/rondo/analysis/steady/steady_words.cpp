@@ -147,7 +147,7 @@ std::vector<std::string> SteadyState<D>::notes() const {
 
 template <int D>
 void SteadyState<D>::describe(Json& json) const {
-  add_steady({case_, solution_, mean_, power_, height(), slip_ratio(), resistance(),
+  add_steady({case_, solution_, mean_, power_, slip_error_, height(), slip_ratio(), resistance(),
               window_.pairs().size(), D == 3},
              json);
 }

@@ -134,7 +134,7 @@ std::vector<RingHarmonic> whole_modes(const Ring& ring, const WholeMesh& whole,
   for (Index j = 0; j < n; ++j) {
     const modal::Mode& mode = found.modes[at(j)];
     squares[j] = mode.omega * mode.omega;
-    shapes.col(j) = rows_of(ring.stiffness.nodes, mode.real).cast<std::complex<double>>();
+    shapes.col(j) = rows_of(ring.stiffness.nodes, mode.real.plane()).cast<std::complex<double>>();
   }
   return {make_harmonic(ring, 0, std::move(squares), std::move(shapes))};
 }

@@ -66,6 +66,12 @@ void RollingHarmonics<D>::move_masses() {
   }
 }
 
+template <int D>
+bool RollingHarmonics<D>::has_inertia(int k) const noexcept {
+  if (body_.inertia == RollingInertia::waves) return 2 * k <= body_.stiffness.n_sectors;
+  return body_.inertia == RollingInertia::all;
+}
+
 /// The highest of an even turn has no derivative.
 template <int D>
 RollingOrder RollingHarmonics<D>::order(int k) const noexcept {
@@ -74,7 +80,8 @@ RollingOrder RollingHarmonics<D>::order(int k) const noexcept {
           2 * k == turn_ ? 0.0 : k * body_.spin,
           body_.spin,
           body_.mass_damping,
-          body_.stiffness_damping};
+          body_.stiffness_damping,
+          has_inertia(k)};
 }
 
 /// One inverse real transform of the candidates' Z_k⁻¹ over the harmonics.
@@ -259,7 +266,7 @@ typename RollingHarmonics<D>::Damped RollingHarmonics<D>::damped(const Block& sp
   for (int k = 1; 2 * k < turn_; ++k) {
     const RollingNorms& of = norms[at(k)];
     const double both = 2.0 * body_.stiffness.n_sectors * std::pow(k * body_.spin, 2);  // k and -k
-    d.by_mass += both * body_.mass_damping * of.mass;
+    if (has_inertia(k)) d.by_mass += both * body_.mass_damping * of.mass;
     d.by_stiffness += both * body_.stiffness_damping * of.stiffness;
   }
   return d;

@@ -17,6 +17,12 @@
 
 namespace rondo::statics {
 
+/// Which harmonics k accelerate the masses: all; those that N sectors resolve as waves around the
+/// body, k <= N/2; none, as if the body rolled infinitely slowly at the shape of its spin. A higher
+/// one has the stiffness of the wave k mod N at the frequency ks of a node's pass, and can resonate
+/// where no wave of the body does.
+enum class RollingInertia { all, waves, none };
+
 /// What the harmonics depend on.
 template <int D>
 struct RollingBody {
@@ -33,8 +39,9 @@ struct RollingBody {
   double stiffness_damping = 0.0;   ///< β                                                  [s]
   int samples = 1;                  ///< P >= 1 of a sector's pass: L = N P of a turn
   bool massless = false;            ///< the candidates' mass is moved to the nodes below
-  std::vector<Vec> load{};          ///< (n_local) on the rows of every sector; empty: none [N]
-  int threads = 1;                  ///< same bits for any number
+  RollingInertia inertia = RollingInertia::all;
+  std::vector<Vec> load{};  ///< (n_local) on the rows of every sector; empty: none [N]
+  int threads = 1;          ///< same bits for any number
 
   /// X of a row's node in sector 0 [m].
   [[nodiscard]] NodeVector<D> place(int row) const noexcept {
@@ -105,6 +112,7 @@ class RollingHarmonics {
 
  private:
   void move_masses();
+  [[nodiscard]] bool has_inertia(int k) const noexcept;
   [[nodiscard]] RollingOrder order(int k) const noexcept;
   [[nodiscard]] Eigen::Index n_rows() const noexcept {
     return static_cast<Eigen::Index>(D * body_.stiffness.n_local());

@@ -66,10 +66,11 @@ struct Harmonic {
   [[nodiscard]] Block own(const RollingLayer<D>& layer) const {
     Block z = turned(layer.own, layer.size(), layer.size());
     if constexpr (D == 2) z = elastic() * z;
-    const Complexes drag = i * (order.rate * order.mass_damping);
-    const Complexes axial = -order.rate * order.rate + drag;
-    const Complexes straight = -order.rate * order.rate - order.spin * order.spin + drag;
-    const Complexes across = 2.0 * i * (order.rate * order.spin);
+    const double rate = order.inertia ? order.rate : 0.0;
+    const Complexes drag = i * (rate * order.mass_damping);
+    const Complexes axial = -rate * rate + drag;
+    const Complexes straight = -rate * rate - order.spin * order.spin + drag;
+    const Complexes across = 2.0 * i * (rate * order.spin);
     for (std::size_t a = 0; a < layer.mass.size(); ++a) {
       const auto row = static_cast<Index>(D * a);
       const double m = layer.mass[a];

@@ -45,13 +45,14 @@ template <int D>
                                               std::span<const double> mass);
 
 /// What one harmonic multiplies: Z_k = K(k)(1 + iksβ) + M(-(ks)² + iks(α + 2sJ) - s² P), with J and
-/// P of the plane of the wheel.
+/// P of the plane of the wheel. Without inertia M multiplies -s² P alone.
 struct RollingOrder {
   std::array<std::complex<double>, 3> turns;  ///< e^{ik 2π/N shift}
   double rate = 0.0;                          ///< ks; 0 of the highest of an even turn     [rad/s]
   double spin = 0.0;                          ///< s                                        [rad/s]
   double mass_damping = 0.0;                  ///< α                                          [1/s]
   double stiffness_damping = 0.0;             ///< β                                            [s]
+  bool inertia = true;                        ///< the masses resist acceleration and drag
 };
 
 /// Numbers of the blocks T_l, (size of l, size of l + 1), one after the other, by which a layer

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Modes of one body at several spins: in the plane on any mesh, or of a wheel in three
+/// dimensions, also where it stands on the ground.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondo/analysis/modes/modes_body.hpp"
+#include "rondo/analysis/modes/standing.hpp"
+#include "rondo/modal/critical_speeds.hpp"
+#include "rondo/modal/modes.hpp"
+
+namespace rondo::study {
+
+/// Modes at one spin. @param damping_ratios NaN of rigid-body motions
+struct SolvedModes {
+  modal::Modes found;
+  std::vector<double> residuals, damping_ratios;
+};
+
+class ModesSolver {
+ public:
+  ModesSolver() = default;
+  ModesSolver(const ModesSolver&) = delete;
+  ModesSolver& operator=(const ModesSolver&) = delete;
+  virtual ~ModesSolver() = default;
+
+  /// @param angular_velocity of the case, > 0 rolls towards +x [rad/s] @throws InputError
+  [[nodiscard]] virtual SolvedModes modes(double angular_velocity, int count) = 0;
+  /// For each n = 1 … last that has one.
+  [[nodiscard]] virtual std::vector<modal::CriticalSpeed> critical(int last) = 0;
+  /// What the user must know of the critical speeds; empty: nothing. @pre critical()
+  [[nodiscard]] virtual std::string critical_note() const { return {}; }
+  /// None: it does not touch the ground.
+  [[nodiscard]] virtual std::optional<Standing> standing() const { return std::nullopt; }
+};
+
+/// Case and body must outlive the solver. @throws InputError
+[[nodiscard]] std::unique_ptr<ModesSolver> plane_modes(const Case& c, const ModesBody& body);
+/// @param standing the nodes in contact with the ground are held
+[[nodiscard]] std::unique_ptr<ModesSolver> solid_modes(const Case& c, const ModesBody& body,
+                                                       bool standing);
+
+}  // namespace rondo::study

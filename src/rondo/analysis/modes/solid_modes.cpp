@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/build/tyre/wheel_at_rest.hpp"
+#include "rondo/analysis/modes/modes_solver.hpp"
+#include "rondo/analysis/modes/standing_wheel.hpp"
+#include "rondo/core/error.hpp"
+#include "rondo/modal/residual.hpp"
+
+namespace rondo::study {
+namespace {
+
+/// The case with its wheel in equilibrium at a spin. With inflation.spin all spins share one state.
+Case with_state_at(const Case& c, double spin) {
+  Case other = c;
+  if (c.inflation && !c.inflation->spin) other.inflation->spin = std::abs(spin);
+  return other;
+}
+
+struct WheelAt {
+  mesh::Mesh mesh;
+  fem::SolidSector sector;
+};
+
+WheelAt wheel_at(const Case& c, double spin) {
+  const Case of = with_state_at(c, spin);
+  WheelAt wheel{build_mesh(of), {}};
+  std::vector<fem::Material> materials = materials_of(of, wheel.mesh);
+  wheel.sector = wheel_at_rest(of, wheel.mesh, materials).sector;
+  return wheel;
+}
+
+/// About the equilibrium at each spin, if the wheel is inflated.
+class SolidModes final : public ModesSolver {
+ public:
+  SolidModes(const Case& c, const ModesBody& body, bool standing)
+      : case_(c),
+        body_(body),
+        damping_{c.damping.mass, c.damping.stiffness},
+        follows_spin_(c.inflation && !c.inflation->spin),
+        wheel_(wheel_at(c, 0.0)) {
+    if (standing) standing_ = standing_wheel(c, wheel_.mesh, body.mass, wheel_.sector);
+  }
+
+  [[nodiscard]] SolvedModes modes(double angular_velocity, int count) override {
+    take(angular_velocity);
+    const double spin = -angular_velocity;
+    const modal::CyclicBody<3> wheel = cyclic();
+    SolvedModes s;
+    if (standing_) {
+      const std::span<const modal::HeldDirection<3>> held = standing_->held;
+      s.found = modal::held_modes(wheel, held, count);
+      for (const modal::Mode& mode : s.found.modes)
+        s.residuals.push_back(modal::residual(wheel, held, mode));
+    } else {
+      s.found = modal::cyclic_modes(wheel, spin, count);
+      for (const modal::Mode& mode : s.found.modes)
+        s.residuals.push_back(modal::residual(wheel, spin, mode));
+    }
+    for (const modal::Mode& mode : s.found.modes)
+      s.damping_ratios.push_back(modal::damping_ratio(body_.mass, spin, mode, damping_));
+    return s;
+  }
+
+  /// Spin stiffens an inflated wheel by about its square: first without, then with the difference
+  /// between the state at the lowest speed found and that at rest.
+  [[nodiscard]] std::vector<modal::CriticalSpeed> critical(int last) override {
+    if (standing_) return {};
+    take(0.0);
+    std::vector<modal::CriticalSpeed> found = modal::critical_speeds(cyclic(), nullptr, last);
+    for (int pass = 0; follows_spin_ && pass < passes && !found.empty(); ++pass) {
+      const double spin = std::ranges::min_element(found, {}, &modal::CriticalSpeed::spin)->spin;
+      fem::SolidSector unit;
+      try {
+        unit = wheel_at(case_, spin).sector;
+      } catch (const InputError& none) {
+        critical_note_ = fmt::format(
+            "the critical speeds do not have all of the stiffening by the spin: at {:.5g} rad/s, "
+            "the "
+            "lowest of them, the wheel has no state ({})",
+            spin, none.what());
+        return found;
+      }
+      for (std::size_t e = 0; e < unit.entries.size(); ++e)
+        for (std::size_t i = 0; i < unit.entries[e].block.size(); ++i)
+          unit.entries[e].block[i] =
+              (unit.entries[e].block[i] - wheel_.sector.entries[e].block[i]) / (spin * spin);
+      found = modal::critical_speeds(cyclic(), &unit, last);
+    }
+    return found;
+  }
+  [[nodiscard]] std::string critical_note() const override { return critical_note_; }
+  [[nodiscard]] std::optional<Standing> standing() const override {
+    if (!standing_) return std::nullopt;
+    return standing_->figures;
+  }
+
+ private:
+  static constexpr int passes = 2;
+
+  void take(double spin) {
+    if (!follows_spin_ || std::abs(spin) == spin_) return;
+    wheel_ = wheel_at(case_, spin);
+    spin_ = std::abs(spin);
+  }
+  [[nodiscard]] modal::CyclicBody<3> cyclic() const {
+    return {wheel_.sector, body_.mass, wheel_.mesh.coordinates};
+  }
+
+  const Case& case_;
+  const ModesBody& body_;
+  modal::Damping damping_;
+  bool follows_spin_;
+  double spin_ = 0.0;  ///< of the state of the wheel, if it follows the spin [rad/s]
+  WheelAt wheel_;
+  std::optional<StandingWheel> standing_;
+  std::string critical_note_;
+};
+
+}  // namespace
+
+std::unique_ptr<ModesSolver> solid_modes(const Case& c, const ModesBody& body, bool standing) {
+  return std::make_unique<SolidModes>(c, body, standing);
+}
+
+}  // namespace rondo::study

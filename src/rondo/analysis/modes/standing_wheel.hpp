@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  Where a wheel in three dimensions touches the ground when it is pressed on it at rest.
+#pragma once
+#include <span>
+#include <vector>
+
+#include "rondo/analysis/modes/modes_solver.hpp"
+#include "rondo/fem/solid/solid_sector.hpp"
+#include "rondo/modal/held_modes.hpp"
+
+namespace rondo::study {
+
+struct StandingWheel {
+  Standing figures;
+  /// Of the nodes that touch: all directions with friction, else along the normal.
+  std::vector<modal::HeldDirection<3>> held;
+};
+
+/// Pressed down to motion.height without friction. @throws InputError: no flat ground, nothing
+/// touches
+[[nodiscard]] StandingWheel standing_wheel(const Case& c, const mesh::Mesh& mesh,
+                                           std::span<const double> mass,
+                                           const fem::SolidSector& sector);
+
+}  // namespace rondo::study
