@@ -71,6 +71,34 @@ TEST(Plausible, AHeightInMillimetres) {
   EXPECT_TRUE(has(warned(moving, "motion.height=0.61"), "stays 0.31 m above it"));
 }
 
+TEST(Plausible, AFreeHeightInMillimetres) {
+  const std::vector<std::string> borne{
+      "time.end=0.02", "output.snapshots=2",
+      "rim={free = ['height'], mass = 10, inertia = 1, force_y = -1e5}"};
+  EXPECT_TRUE(has(warned(borne, "motion.height=290"), "starts 289.7 m above the ground"));
+  EXPECT_FALSE(has(warned(borne, "motion.height=3.2"), "motion.height"));  // it is dropped
+}
+
+/// Contact nodes are 47 mm apart.
+TEST(Plausible, GroundThatIsSmallBesideTheElements) {
+  const auto over = [](const std::string& profile, const std::string& fillet) {
+    std::vector<std::string> settings = moving;
+    settings.push_back("ground.profile=" + profile);
+    return warned(settings, "ground.fillet=" + fillet);
+  };
+  const std::string ledge = "[[-9, 0], [2, 0], [2, 0.1], [9, 0.1]]";
+  const std::string told = over(ledge, "0.02");
+  EXPECT_TRUE(has(told, "ground.fillet: the radius of 0.02 m is below the 0.0471 m between"));
+  EXPECT_TRUE(has(told, "give a fillet of at least 0.0471 m"));
+  EXPECT_EQ(over(ledge, "0.05"), "");
+  EXPECT_EQ(over(ledge, "0"), "");  // a sharp corner is meant
+  const auto post = [&](const std::string& end) {
+    return over("[[-9, 0], [2, 0], [2, 0.02], [" + end + ", 0.02], [" + end + ", 0], [9, 0]]", "0");
+  };
+  EXPECT_TRUE(has(post("2.02"), "ground.profile: the obstacle 0.02 m high at (2"));
+  EXPECT_EQ(post("2.1"), "");
+}
+
 TEST(Plausible, APressureInBar) {
   for (const auto& kind : {moving, rolling, loaded}) {
     const std::string told = warned(kind, "load.pressure=[{curve = 'tread', value = 2.2}]");

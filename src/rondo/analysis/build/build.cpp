@@ -9,6 +9,7 @@
 
 #include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/build/ground/held_ground.hpp"
+#include "rondo/analysis/build/ground/small_ground.hpp"
 #include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
@@ -343,8 +344,9 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   check_branches(c, s);
   set_initial_fields(c, s, shared);
   refuse_held_in_ground(c, s);
-  if (std::string told = held_outside_contact(c, s); !told.empty())
-    s.warnings.push_back(std::move(told));
+  for (std::string told :
+       {held_outside_contact(c, s), s.model.solid ? std::string() : small_ground(c, s)})
+    if (!told.empty()) s.warnings.push_back(std::move(told));
   check_start(c, s);
   check_stability(c, s);
   tell_physical_figures(c, s);

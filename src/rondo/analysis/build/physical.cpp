@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <span>
@@ -13,6 +14,7 @@
 #include "rondo/analysis/build/plausible/plausible.hpp"
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/rubber.hpp"
+#include "rondo/analysis/build/tyre/pressed_tyre.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 
@@ -50,26 +52,33 @@ const char* order_of(double modulus) {
   return modulus < 1e12 ? "as metals" : "stiffer than any metal";
 }
 
-/// A round body on a rim: between what is held and what may touch.
 struct Tell {
   std::vector<Told>& figures;
   std::vector<std::string>& warnings;
+
+  void warn(std::string text) const {
+    if (!text.empty()) warnings.push_back(std::move(text));
+  }
+  void add(PhysicalFigures told) const {
+    std::ranges::move(told.figures, std::back_inserter(figures));
+    std::ranges::move(told.warnings, std::back_inserter(warnings));
+  }
 };
 
-/// Tells how far the wall is pressed in, and about how hard: as a layer on a rim, E/(1 - ν²) times
-/// that way over its thickness.
+/// The body stays above the ground. @param gap >= 0 [m]
+void tell_gap(double gap, const Wall& wall, const Tell& to) {
+  to.figures.emplace_back("deflection", fmt::format("none: {:.4g} m above the ground", gap));
+  to.warn(stays_above_ground(wall.radius + gap, wall.radius));
+}
+
+/// Tells how far the wall of a round body on a rim, between what is held and what may touch, is
+/// pressed in, and about how hard: as a layer on a rim, E/(1 - ν²) times that way over its
+/// thickness.
 /// @param key that says how far
 void tell_deflection(const std::string& key, double deflection, const Wall& wall,
                      const fem::Material& m, const Tell& to) {
-  const auto warn = [&](std::string text) {
-    if (!text.empty()) to.warnings.push_back(std::move(text));
-  };
-  if (!(deflection > 0.0)) {
-    to.figures.emplace_back("deflection",
-                            fmt::format("none: {:.4g} m above the ground", -deflection));
-    return warn(stays_above_ground(wall.radius - deflection, wall.radius));
-  }
-  warn(hardly_pressed(key, deflection, wall.radius));
+  if (!(deflection > 0.0)) return tell_gap(-deflection, wall, to);
+  to.warn(hardly_pressed(key, deflection, wall.radius));
   const double share = deflection / wall.thickness;
   const double of_modulus = share / (1.0 - m.poissons_ratio * m.poissons_ratio);
   to.figures.emplace_back("deflection",
@@ -84,6 +93,26 @@ void tell_deflection(const std::string& key, double deflection, const Wall& wall
                     "ground at first touch, with a pressure of about {:.2g} of E: the law of the "
                     "material is for small strains",
                     deflection, 100.0 * share, wall.thickness, of_modulus));
+}
+
+/// The same of a tyre, whose wall bends and whose air bears the load.
+void tell_deflection(const std::string& key, double deflection, const PressedTyre& tyre,
+                     double lean, const Tell& to) {
+  if (deflection > 0.0) {
+    to.warn(hardly_pressed(key, deflection, tyre.wall.radius));
+    return to.add(pressed_in(key, deflection, tyre));
+  }
+  tell_gap(-deflection, tyre.wall, to);
+  to.warn(stays_clear(key, -deflection, lean, tyre));
+}
+
+/// Tells what a given load does to a tyre, unless load or pressure is warned of.
+void tell_load(const Case& c, const std::string& key, double load, const RoundBody& body,
+               const Wall& wall, const Tell& to) {
+  if (!body.inflation || !(air_force(*body.inflation) > 0.0) || !(load > 0.0)) return;
+  if (is_hardly_loaded(load, body.mesh, body.materials)) return;
+  if (!is_hardly_inflated(c, body.materials))
+    to.add(under_load(key, load, {*body.inflation, wall}));
 }
 
 void tell_slip(const Case& c, double radius, const Tell& to) {
@@ -183,6 +212,24 @@ const fem::Material& touching_material(const mesh::Mesh& mesh,
   return fem::material_of(mesh, materials, softest);
 }
 
+/// By the height of the rim.
+void tell_height(const Case& c, double deflection, const RoundBody& body, const Wall& wall,
+                 const Tell& to) {
+  constexpr const char* key = "motion.height";
+  if (body.inflation)
+    tell_deflection(key, deflection, {*body.inflation, wall}, c.motion.camber, to);
+  else
+    tell_deflection(key, deflection, wall, touching_material(body.mesh, body.materials), to);
+}
+
+/// How deep a rim comes that forces move, the run looks (HubWatch).
+void tell_free_height(const Case& c, const Setup& s, const Wall& wall, const Tell& to) {
+  const double start = s.model.contact->ground.distance(c.motion.center(0.0).plane());
+  to.warn(starts_far_above(start, wall.radius));
+  if (const std::optional<double> load = load_on_ground(c, s.model))
+    tell_load(c, "rim.force_y", *load, {s.mesh, s.materials, s.inflation}, wall, to);
+}
+
 }  // namespace
 
 void warn_of_units(const Case& c, const mesh::Mesh& mesh,
@@ -234,9 +281,11 @@ void tell_physical_figures(const Case& c, Setup& s) {
     tell_speed(c, fastest(c, s, wall ? wall->radius : extent_of(s.mesh)), s.materials, to);
   if (s.model.rim) tell_rim(c, s);
   if (!wall || !s.model.contact) return;
-  if (!s.model.rim || !s.model.rim->free_y)  // else the run looks (HubWatch)
-    tell_deflection("motion.height", deflection_by_motion(c, s, *wall), *wall,
-                    touching_material(s.mesh, s.materials), to);
+  if (s.model.rim && s.model.rim->free_y)
+    tell_free_height(c, s, *wall, to);
+  else
+    tell_height(c, deflection_by_motion(c, s, *wall), {s.mesh, s.materials, s.inflation}, *wall,
+                to);
   tell_slip(c, wall->radius, to);
 }
 
@@ -251,22 +300,23 @@ void tell_physical_figures(const Case& c, CrushSetup& s) {
                     touching_material(s.mesh, s.materials), to);
 }
 
-void tell_physical_figures(const Case& c, const mesh::Mesh& mesh,
-                           const std::vector<fem::Material>& materials, PhysicalFigures& told) {
+void tell_physical_figures(const Case& c, const RoundBody& body, PhysicalFigures& told) {
   const Tell to{told.figures, told.warnings};
-  warn_of_senses(c, mesh, materials, told.warnings);
-  tell_stiffness(materials, to);
-  const std::optional<Wall> wall = wall_of(mesh);
-  const double radius = wall ? wall->radius : extent_of(mesh);
+  warn_of_senses(c, body.mesh, body.materials, told.warnings);
+  tell_stiffness(body.materials, to);
+  const std::optional<Wall> wall = wall_of(body.mesh);
+  const double radius = wall ? wall->radius : extent_of(body.mesh);
   const bool finds_speed = c.analysis.traction || c.analysis.torque;
   const double rim = std::abs(c.motion.angular_velocity.at(0.0)) * radius;
-  tell_speed(c, finds_speed ? rim : std::max(rim, std::abs(c.motion.speed.at(0.0))), materials, to);
+  tell_speed(c, finds_speed ? rim : std::max(rim, std::abs(c.motion.speed.at(0.0))), body.materials,
+             to);
   if (!wall) return;
-  if (!c.analysis.load) {
+  if (c.analysis.load) {
+    tell_load(c, "analysis.load", *c.analysis.load, body, *wall, to);
+  } else {
     RONDO_DEMAND(c.ground.has_value(), c.file.string());
     const double height = c.motion.height.at(0.0) - c.ground->shape.profile.front().y;
-    tell_deflection("motion.height", wall->radius - height, *wall,
-                    touching_material(mesh, materials), to);
+    tell_height(c, wall->radius - height, body, *wall, to);
   }
   if (!finds_speed) tell_slip(c, wall->radius, to);
 }

@@ -43,9 +43,15 @@ struct PhysicalFigures {
 void tell_physical_figures(const Case& c, Setup& s);
 /// With those of units.
 void tell_physical_figures(const Case& c, CrushSetup& s);
-/// Tells the figures that a steady case gives: no deflection under a load, no slip ratio under a
-/// traction or torque, and no warnings of units.
-void tell_physical_figures(const Case& c, const mesh::Mesh& mesh,
-                           const std::vector<fem::Material>& materials, PhysicalFigures& told);
+
+/// A body on a rim, inflated or not.
+struct RoundBody {
+  const mesh::Mesh& mesh;
+  const std::vector<fem::Material>& materials;
+  const std::optional<InflationFigures>& inflation;
+};
+/// Tells the figures that a steady case gives: no deflection under a load but that of a tyre, no
+/// slip ratio under a traction or torque, and no warnings of units.
+void tell_physical_figures(const Case& c, const RoundBody& body, PhysicalFigures& told);
 
 }  // namespace rondo::study

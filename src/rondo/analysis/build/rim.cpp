@@ -61,6 +61,13 @@ std::string free_text(const RimBody& rim) {
                      free.empty() || held.empty() ? "" : "; ", held.empty() ? "" : "held ", held);
 }
 
+/// Of rim and body at the end of the run.
+Vec2 weight_of(const Case& c, const dynamics::Model& model) {
+  double mass = model.rim->mass;
+  for (const int node : model.free) mass += model.mass[at(node)];
+  return mass * model.motion.gravity_at(c.time.end);
+}
+
 /// Those of what is free at the end of the run; the weight is of rim and body.
 std::string load_text(const Case& c, const dynamics::Model& model) {
   const RimBody& rim = *model.rim;
@@ -75,9 +82,7 @@ std::string load_text(const Case& c, const dynamics::Model& model) {
   if (rim.free_y) add("force_y", rim.force_y.at(end), force);
   if (rim.free_spin) add("torque", rim.torque.at(end), torque);
   if (rim.free_spin) add("brake", rim.brake.at(end), torque);
-  double mass = rim.mass;
-  for (const int node : model.free) mass += model.mass[at(node)];
-  const Vec2 weight = mass * model.motion.gravity_at(end);
+  const Vec2 weight = weight_of(c, model);
   if ((rim.free_x || rim.free_y) && norm(weight) > 0.0)
     loads.push_back(fmt::format("weight ({:.6g}, {:.6g}) {}", weight.x + 0.0, weight.y, force));
   return fmt::format("{}", fmt::join(loads, ", "));
@@ -179,6 +184,12 @@ HubWatch::Seen HubWatch::look(Vec2 center, double time) {
   told_ = true;
   return {fmt::format("t = {:.9g} s: {}: the law of the material is for small strains", time, told),
           {}};
+}
+
+std::optional<double> load_on_ground(const Case& c, const dynamics::Model& model) {
+  RONDO_DEMAND(model.rim.has_value(), model.n_nodes());
+  if (model.rim->support_y.stiffness != 0.0) return std::nullopt;
+  return -model.rim->force_y.at(c.time.end) - weight_of(c, model).y;
 }
 
 void tell_rim(const Case& c, Setup& s) {

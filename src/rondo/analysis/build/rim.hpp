@@ -2,6 +2,8 @@
 /// @file  The rim of a case with [rim]: its body, its critical step, what `rondo check` tells of
 /// it.
 #pragma once
+#include <optional>
+
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/model/stability/rim_step.hpp"
@@ -45,6 +47,10 @@ class HubWatch {
   double held_ = 0.0;         ///< radius of what is held; 0: nothing to look at [m]
   bool told_ = false;
 };
+
+/// What presses a wheel of free height on flat ground at the end of the run: force_y and weight of
+/// rim and body; none: a spring along y bears a part of it [N/m], [N]. @pre a rim
+[[nodiscard]] std::optional<double> load_on_ground(const Case& c, const dynamics::Model& model);
 
 /// Adds figures: what is free, masses, loads at the end of the run. @pre a rim
 void tell_rim(const Case& c, Setup& s);

@@ -42,7 +42,7 @@ class SteadyRolling final : public Analysis {
         ground_(c.ground->shape),
         strain_(body_->mesh, body_->materials) {
     refuse_held_in_ground(c, body_->mesh);
-    tell_physical_figures(c, body_->mesh, body_->materials, told_);
+    tell_physical_figures(c, {body_->mesh, body_->materials, body_->inflation}, told_);
     if (options.resume)
       throw case_error(c, "analysis.kind", "steady rolling has no checkpoints to resume from",
                        "\"dynamic\", or --overwrite instead of --resume");

@@ -26,10 +26,14 @@ double mass_of(const mesh::Mesh& mesh, const std::vector<fem::Material>& materia
   return mass;
 }
 
+bool is_small_load(double load, double weight) {
+  return std::abs(load) < least_load_share * weight;
+}
+
 void warn_of_load(const std::string& key, double load, double mass, bool solid,
                   std::vector<std::string>& warnings) {
   const double weight = mass * earth_gravity;
-  if (load == 0.0 || std::abs(load) >= least_load_share * weight) return;
+  if (load == 0.0 || !is_small_load(load, weight)) return;
   const char* force = solid ? "N" : "N/m";
   warnings.push_back(
       fmt::format("{0} of {1:.4g} {2} is {3:.2g} times the weight of the body ({4:.3g} {5}, "
@@ -49,20 +53,30 @@ void warn_of_loads(const Case& c, const mesh::Mesh& mesh,
     warn_of_load("rim.force_y", c.rim->force_y.largest(), mass, mesh.is_solid(), warnings);
 }
 
-void warn_of_pressures(const Case& c, const std::vector<fem::Material>& materials,
-                       std::vector<std::string>& warnings) {
+double softest_of(const std::vector<fem::Material>& materials) {
   double softest = std::numeric_limits<double>::infinity();
   for (const fem::Material& m : materials) softest = std::min(softest, m.youngs_modulus);
-  const auto look = [&](const std::string& key, double most) {
-    if (most == 0.0 || most >= least_pressure || most >= least_pressure_share * softest) return;
+  return softest;
+}
+
+bool is_small(double pressure, double share, double softest) {
+  return pressure != 0.0 && pressure < least_pressure && pressure < share * softest;
+}
+
+void warn_of_pressures(const Case& c, const std::vector<fem::Material>& materials,
+                       std::vector<std::string>& warnings) {
+  const double softest = softest_of(materials);
+  const auto warn = [&](const std::string& key, double most) {
     warnings.push_back(
         fmt::format("{} reaches {:.4g} Pa at most, {:.2g} of the softest modulus: it hardly "
                     "deforms the body; is the pressure in Pa, not in bar or kPa?",
                     key, most, most / softest));
   };
   for (std::size_t k = 0; k < c.pressures.size(); ++k)
-    look(item_of("load.pressure", k) + ".value", c.pressures[k].pressure.largest());
-  if (c.inflation) look("inflation.pressure", c.inflation->pressure);
+    if (const double most = c.pressures[k].pressure.largest();
+        is_small(most, least_pressure_share, softest))
+      warn(item_of("load.pressure", k) + ".value", most);
+  if (is_hardly_inflated(c, materials)) warn("inflation.pressure", c.inflation->pressure);
 }
 
 void warn_of_angle(const char* key, double angle, std::vector<std::string>& warnings) {
@@ -88,8 +102,9 @@ void warn_of_section(const Case& c, const mesh::Mesh& mesh, std::vector<std::str
   warnings.push_back(fmt::format(
       "section.file: the curve \"{}\" lies from z = {:.4g} to {:.4g} m, its middle {:.4g} m beside "
       "z = 0, the plane about which moments, slip angle and camber are taken: the wheel is offset "
-      "by that; is the section drawn about its middle, and whole?",
-      c.section->mesh.contact, left, right, std::abs(middle)));
+      "by that; is the section drawn about its middle, and whole{}?",
+      c.section->mesh.contact, left, right, std::abs(middle),
+      c.inflation ? ", and does inflation.mounting move its beads to opposite sides" : ""));
 }
 
 }  // namespace
@@ -111,6 +126,24 @@ std::string stays_above_ground(double height, double radius) {
       "radius is {:.4g} m, stays {:.4g} m above it: nothing touches; is the height in m, not in "
       "mm, and counted from y = 0 to the center?",
       height, radius, height - radius);
+}
+
+std::string starts_far_above(double height, double radius) {
+  if (!(height - radius > far_share * radius)) return {};
+  return fmt::format(
+      "motion.height: the wheel, whose radius is {:.4g} m, starts {:.4g} m above the ground; is "
+      "the height in m, not in mm, and counted from y = 0 to the center?",
+      radius, height - radius);
+}
+
+bool is_hardly_loaded(double load, const mesh::Mesh& mesh,
+                      const std::vector<fem::Material>& materials) {
+  return is_small_load(load, mass_of(mesh, materials) * earth_gravity);
+}
+
+bool is_hardly_inflated(const Case& c, const std::vector<fem::Material>& materials) {
+  return c.inflation &&
+         is_small(c.inflation->pressure, least_inflation_share, softest_of(materials));
 }
 
 std::string hardly_pressed(const std::string& key, double deflection, double radius) {

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/analysis/build/ground/small_ground.hpp"
+
+#include <fmt/format.h>
+
+#include "rondo/contact/intrusion.hpp"
+#include "rondo/core/contract.hpp"
+
+namespace rondo::study {
+namespace {
+
+constexpr const char* where_they_are =
+    "its force is that of a point and depends on where the nodes happen to be";
+
+std::string small_obstacle(const contact::Ground& ground) {
+  const double spacing = ground.spacing();
+  const contact::Intrusion obstacle = contact::hidden_between_nodes(ground, spacing).whole;
+  if (!(obstacle.depth > contact::least_hidden * spacing)) return {};
+  return fmt::format(
+      "ground.profile: the obstacle {:.3g} m high at ({:.6g}, {:.6g}) m is shorter than the {:.3g} "
+      "m between two contact nodes: {}; give an obstacle several times as long, or a finer mesh",
+      obstacle.depth, obstacle.at.x, obstacle.at.y, spacing, where_they_are);
+}
+
+std::string small_fillet(const contact::Ground& ground, double fillet) {
+  const double spacing = ground.spacing();
+  if (!(fillet > 0.0 && fillet < spacing) || ground.corners().empty()) return {};
+  const Vec2 first = ground.corners()[0].position;
+  return fmt::format(
+      "ground.fillet: the radius of {:.3g} m is below the {:.3g} m between two contact nodes, and "
+      "the corner at ({:.6g}, {:.6g}) m counts as sharp: {}; give a fillet of at least {:.3g} m, "
+      "or a finer mesh",
+      fillet, spacing, first.x, first.y, where_they_are, spacing);
+}
+
+}  // namespace
+
+std::string small_ground(const Case& c, const Setup& s) {
+  RONDO_DEMAND(!s.model.solid, s.model.n_nodes());
+  if (!s.model.contact || !(s.model.contact->ground.spacing() > 0.0)) return {};
+  const contact::Ground& ground = s.model.contact->ground;
+  std::string told = small_obstacle(ground);
+  return told.empty() ? small_fillet(ground, c.ground->shape.fillet) : told;
+}
+
+}  // namespace rondo::study
