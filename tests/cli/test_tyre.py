@@ -3,8 +3,6 @@
 what is refused."""
 import csv
 import json
-
-
 import re
 import unittest
 
