@@ -53,9 +53,9 @@ def _parser() -> argparse.ArgumentParser:
     paper.add_argument("--study", type=pathlib.Path, metavar="FOLDER",
                        help="Directory of another study.toml; default studies/paper")
 
-    figures = add("figures", "Draws the figures of a run, a sweep or a study of the paper")
+    figures = add("figures", "Draws the figures of a run, a sweep, modes or a study of the paper")
     figures.add_argument("directory", type=pathlib.Path,
-                         help="Directory of `rondo run`, `rondo sweep` or `rondo paper`")
+                         help="Directory of `rondo run`, `rondo sweep`, `rondo modes` or `rondo paper`")
     figures.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                          help="Directory for the .png and .svg files; default DIRECTORY/figures")
 
@@ -231,6 +231,9 @@ def _figures(options: argparse.Namespace) -> None:
     if (options.directory / "paper.json").is_file():
         from rondo.figures import draw_paper
         written = draw_paper(open_paper(options.directory, options.unfinished), folder)
+    elif (options.directory / "modes.json").is_file():
+        from rondo.figures.modes_figures import draw_modes
+        written = draw_modes(open_modes(options.directory), folder)
     else:
         from rondo.figures.run_figures import draw_run
         written = draw_run(open_run(options.directory, options.unfinished), folder)

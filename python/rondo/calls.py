@@ -101,7 +101,7 @@ def run(case: Place, output: Place | None = None, settings: Mapping[str, Any] | 
 @documented("modes")
 def modes(case: Place, output: Place | None = None, settings: Mapping[str, Any] | None = None, *,
           count: int | None = None, spins: Sequence[float] | None = None,
-          sweep: str | None = None, diameters: int | None = None,
+          sweep: str | None = None, diameters: int | None = None, standing: bool = False,
           overwrite: bool = False) -> Modes:
     """Frequencies, shapes and critical speeds of a case's body (`rondo modes`), made in this
     process and opened."""

@@ -146,6 +146,16 @@ def _campbell(modes: Modes, frame: str = "co-rotating", ax: Axes | None = None) 
     return plot_campbell(modes, frame, ax)
 
 
+def _shapes(modes: Modes, count: int = 6, spin: float | None = None) -> Figure:
+    """The first shapes; see rondo.plots.shapes.plot_shapes, of a wheel in three dimensions
+    rondo.plots.solid.shapes.plot_shapes."""
+    if modes.mesh.is_solid:
+        from .plots.solid.shapes import plot_shapes as plot_solid
+        return plot_solid(modes, count, spin)
+    from .plots.shapes import plot_shapes
+    return plot_shapes(modes, count, spin)
+
+
 def _main_effects(sweep: Sweep, figure: str) -> Figure:
     """A figure over each parameter; see rondo.plots.sweep_effects.plot_main_effects."""
     from .plots.sweep_effects import plot_main_effects
@@ -226,7 +236,7 @@ def attach() -> None:
     Run.plot_wheel, Run.plot_footprint, Run.plot_convergence = _wheel, _footprint, _convergence
     Run.plot_section, Run.plot_cords = _section, _cords
     Pod.plot_spectrum, Pod.plot_modes = _decay, _modes
-    Modes.plot_campbell = _campbell
+    Modes.plot_campbell, Modes.plot_shapes = _campbell, _shapes
     Sweep.plot_main_effects, Sweep.plot_map = _main_effects, _map
     Sweep.plot_curves, Sweep.plot_spread = _curves, _spread
     Sweep.plot_traction, Sweep.plot_carpet = _traction, _carpet

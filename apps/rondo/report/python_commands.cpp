@@ -16,7 +16,7 @@ struct PythonCommand {
 };
 
 constexpr PythonCommand commands[] = {
-    {"figures", "Draws the figures of a run, a sweep or a study of the paper"},
+    {"figures", "Draws the figures of a run, a sweep, modes or a study of the paper"},
     {"animate", "Makes a film of a run"},
     {"means", "Prints the mean forces of the ground on the body"},
     {"psd", "Draws the power spectral density of a column of history.csv, and writes it as CSV"},

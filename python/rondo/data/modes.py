@@ -2,21 +2,24 @@
 """What `rondo modes` wrote: frequencies at the spins asked for, and over the spin."""
 from __future__ import annotations
 
+import contextlib
 import csv
 import io
 import os
 import pathlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
+import h5py
 import numpy as np
 from numpy.typing import NDArray
 
 from . import files
 from .errors import Error
 from .html import modes_html
+from .mesh import Mesh, read_mesh
 from .plain_files import text_of
 from .tables import frame_of
 
@@ -44,10 +47,12 @@ class Modes:
 
     table: columns of modes.csv, a row for each mode at each spin of its own: "mode" (from 1),
     "frequency_rad_s", "frequency_hz", "nodal_diameters" (-1: not known), "wave", "spin_rad_s",
-    "residual". branches: over the spins of --spins."""
+    "residual", "damping_ratio" (NaN: of a rigid-body motion). branches: over the spins of --spins.
+    mesh: that of the shapes."""
 
     # Pictures: what rondo/pictures.py gives this class, as nothing here knows how to draw.
     plot_campbell: Callable[..., Figure]
+    plot_shapes: Callable[..., Figure]
 
     def __init__(self, directory: pathlib.Path) -> None:
         self.directory = directory
@@ -68,6 +73,47 @@ class Modes:
     @cached_property
     def table(self) -> dict[str, NDArray[Any]]:
         return _table(self.directory / "modes.csv")
+
+    @property
+    def has_shapes(self) -> bool:
+        return (self.directory / "modes.h5").is_file()
+
+    @cached_property
+    def mesh(self) -> Mesh:
+        with self._shapes() as file:
+            return read_mesh(file)
+
+    def shape(self, row: int) -> NDArray[np.complex128]:
+        """(n, 2) or (n, 3): the shape of this row of `table`, in the co-rotating frame. The motion
+        is the real part of shape · e^(iωt)."""
+        with self._shapes() as file:
+            real, imaginary = file["modes/real"], file["modes/imaginary"]
+            if not len(real) == len(imaginary) == len(self.table["mode"]):
+                raise Error(f"{self.directory}: damaged: modes.h5 has not the modes of modes.csv")
+            found: NDArray[np.complex128] = real[row] + 1j * imaginary[row]
+        return found
+
+    def rows_at(self, spin: float | None = None) -> NDArray[np.int64]:
+        """The rows of `table` at this spin (rad/s), by default the first there is."""
+        spins = self.table["spin_rad_s"]
+        if not len(spins):
+            raise Error(f"{self.directory}: has no modes")
+        wanted = float(spins[0]) if spin is None else spin
+        rows = np.flatnonzero(np.isclose(spins, wanted, rtol=1e-6, atol=1e-12))
+        if not len(rows):
+            raise Error(f"{self.directory}: spin={wanted:g}: there are modes at "
+                        f"{files.some(f'{s:g}' for s in np.unique(spins))} rad/s")
+        return rows
+
+    @contextlib.contextmanager
+    def _shapes(self) -> Iterator[h5py.File]:
+        if not self.has_shapes:
+            raise Error(f"{self.directory}: has no modes.h5, and so no shapes: rondo modes "
+                        "writes them when all spins of --spin are done")
+        path = self.directory / "modes.h5"
+        with files.opened(path) as file:
+            files.check_format(path, "modes", file.attrs.get("format"))
+            yield file
 
     def _repr_html_(self) -> str:
         return modes_html(self)
@@ -96,14 +142,16 @@ class Modes:
 _TYPES: dict[str, Callable[[str], Any]] = {
     "mode": int, "frequency_rad_s": float, "frequency_hz": float,
     "nodal_diameters": lambda text: int(text or -1), "wave": str, "spin_rad_s": float,
-    "residual": float}
+    "residual": float, "damping_ratio": lambda text: float(text or "nan")}
 _UNITS = {"mode": "1", "frequency_rad_s": "rad/s", "frequency_hz": "Hz", "nodal_diameters": "1",
-          "spin_rad_s": "rad/s", "residual": "1"}
+          "spin_rad_s": "rad/s", "residual": "1", "damping_ratio": "1"}
 
 
 def _table(path: pathlib.Path) -> dict[str, NDArray[Any]]:
     try:
         rows = list(csv.DictReader(io.StringIO(text_of(path))))
+        for row in rows:
+            row.setdefault("damping_ratio", "")  # not there in tables of earlier versions
         return {name: np.array([kind(row[name]) for row in rows]) for name, kind in _TYPES.items()}
     except (csv.Error, ValueError, KeyError, TypeError) as reason:
         raise Error(f"{path}: cannot be read: {reason}") from None
