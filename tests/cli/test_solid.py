@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Wheels in three dimensions from outside: what their runs write, that left and right are mirrored,
 that they resume to the same bits, and what they do not go with."""
+import json
 import re
 import signal
 import subprocess
@@ -10,7 +11,7 @@ import unittest
 import h5py
 import numpy as np
 
-from program import PROGRAM, ProgramTest, contact, history, replaced, run, said, summary
+from program import PROGRAM, ROOT, ProgramTest, contact, history, replaced, run, said, summary
 
 # A box wheel that corners, already on the ground: 2×3×40 hexahedra.
 WHEEL = """schema = 1
@@ -44,6 +45,7 @@ end = 0.02
 [output]
 snapshots = 5
 """
+TYRE_CASE = ROOT / "cases" / "wheel3d-tyre.toml"
 LATERAL = ("force_lateral", "moment_aligning", "moment_overturning")
 
 # Five quadrilaterals of a section round the cavity of a tyre, in mm: r from 150 to 300, z from -50
@@ -421,6 +423,26 @@ class Refusals(SolidTest):
         done = run("reduce", out, "-o", self.folder / "model.h5")
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn("reduced wheels are plane", done.stderr)
+
+    def test_a_standing_wheel_bears_its_pressure(self):
+        """Modes with --standing press as slow rolling without friction does."""
+        common = ["section.sectors=24", "motion.height=0.276", "ground.friction=0"]
+        rolling = ["analysis.kind=steady-rolling", "analysis.inertia=none", "analysis.samples_per_sector=1",
+                   "motion.angular_velocity=0.01", "motion.speed=0.003"]
+        steady, modes = self.folder / "steady", self.folder / "modes"
+        loads = []
+        for pressure in (0, 50e3):
+            settings = [*common, f"load.pressure[0].value={pressure}"]
+            done = run("run", TYRE_CASE, "-o", steady, "--overwrite",
+                       *(word for setting in settings + rolling for word in ("--set", setting)))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            done = run("modes", TYRE_CASE, "-o", modes, "--overwrite", "--standing", "--count", 1,
+                       *(word for setting in settings for word in ("--set", setting)))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            standing = json.loads((modes / "modes.json").read_text())["standing"]
+            self.assertAlmostEqual(standing["load"] / summary(steady)["steady"]["force_y"], 1.0, delta=1e-5)
+            loads.append(standing["load"])
+        self.assertGreater(loads[1], 1.05 * loads[0])
 
     def test_plane_bodies_have_no_lateral_direction(self):
         plane = replaced(replaced(replaced(replaced(WHEEL, "width", None), "axial", None),

@@ -611,7 +611,7 @@ constexpr CaseKey keys[] = {
     {"analysis.estimate_slip_error", "-", FIELD(analysis.estimate_slip_error), any,
      optional.of(of_steady_rolling).body(never),
      "Whether the contact is solved with both formulas of `analysis.slip`, and their difference "
-     "kept as `slip_error` in `run.json`: the error of the discretisation along the ground. "
+     "kept as `slip_error` in `run.json`: a measure of the error along the ground. "
      "Default "
      "with `[inflation]` true"},
     {"analysis.massless_contact", "-", FIELD(analysis.massless_contact), any,

@@ -49,7 +49,7 @@ void check_steady_start(CaseValues& in, const Case& c);
 
 /// Height of the ground if it is flat below the whole body at t = 0. @pre there is ground without
 /// faults                                                                            [m]
-std::optional<double> flat_ground_below(const Case& c);
+std::optional<double> flat_ground_below(const Case& c, double radius);
 
 /// Requires a key because another key is given; adds no fault if the kind of analysis has one.
 void require(CaseValues& in, std::string_view key);

@@ -149,9 +149,9 @@ void check_start_motion(CaseValues& in, const Case& c) {
 
 }  // namespace
 
-std::optional<double> flat_ground_below(const Case& c) {
+std::optional<double> flat_ground_below(const Case& c, double radius) {
   const contact::GroundShape& shape = c.ground->shape;
-  const double reach = c.disk.outer_radius + shape.fillet;
+  const double reach = radius + shape.fillet;
   const double from = c.motion.start_x - reach, to = c.motion.start_x + reach;
   std::optional<double> height;
   const std::size_t last = shape.profile.size() - 1;
@@ -171,7 +171,7 @@ void check_steady_start(CaseValues& in, const Case& c) {
     in.fault(start, "there is no ground to roll on", "\"stationary\"; or a [ground]");
   else if (in.good({"ground", "ground.profile", "ground.fillet", "disk.outer_radius"}) &&
            c.ground && contact::shape_faults(c.ground->shape).empty() && !c.mesh &&
-           !flat_ground_below(c))
+           !flat_ground_below(c, c.disk.outer_radius))
     in.fault("ground.profile",
              fmt::format("is not flat below the body at t = 0, from x = {:.6g} to {:.6g} m, as a "
                          "start in steady rolling requires",

@@ -134,7 +134,8 @@ double residual(const MeshBody& body, double spin, const Mode& mode) {
 }
 
 double damping_ratio(std::span<const double> mass, double spin, const Mode& mode, Damping damping) {
-  if (!(mode.omega > 0.0)) return std::numeric_limits<double>::quiet_NaN();
+  if (mode.wave == Wave::rigid || !(mode.omega > 0.0))
+    return std::numeric_limits<double>::quiet_NaN();
   return mode.real.components() == 2 ? damping_ratio_of<2>(mass, spin, mode, damping)
                                      : damping_ratio_of<3>(mass, spin, mode, damping);
 }

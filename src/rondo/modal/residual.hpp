@@ -19,7 +19,7 @@ struct Damping {
 
 /// Rate at which damping lets a mode decay, over ω: (αm + βk)/(2ω + g) with m = 1, k = φᴴKφ and g =
 /// φᴴ2sMJφ/i, for φ of the undamped body. At rest it is (α/ω + βω)/2, exactly; in spin an error of
-/// second order in the damping remains. NaN where ω is 0. @param mass (n)
+/// second order in the damping remains. NaN of rigid-body motions. @param mass (n)
 double damping_ratio(std::span<const double> mass, double spin, const Mode& mode, Damping damping);
 
 }  // namespace rondo::modal

@@ -137,7 +137,7 @@ void set_steady_rolling(const Case& c, Setup& s) {
   const RollingHarmonics harmonics = harmonics_of(c, s);
   statics::RollingWindow<2> window(harmonics, statics::SlipDifference::bdf2, 0.0,
                                    m.motion.gravity.at(0.0));
-  const double floor = flat_ground_below(c).value();
+  const double floor = flat_ground_below(c, c.disk.outer_radius).value();
   statics::RollingDrive drive;
   drive.height = m.motion.height.at(0.0) - floor;
   drive.speed = m.motion.speed.at(0.0);

@@ -175,8 +175,9 @@ class ModesAnalysis final : public Analysis {
     report_.directory = request.run.directory;
     report_.nodes = body_.mesh.n_nodes();
     report_.dofs = body_.components() * fem::free_nodes(body_.mesh).size();
-    report_.standing = request.standing;
     if (body_.cyclic()) report_.outer_radius = outer_radius(c, body_);
+    solver_ = is_solid(c) ? solid_modes(c, body_, request.standing) : plane_modes(c, body_);
+    report_.on_ground = solver_->standing();
   }
 
   [[nodiscard]] CheckReport check(double) override {
@@ -201,22 +202,18 @@ class ModesAnalysis final : public Analysis {
     if (body_.inflation) add_inflation(*body_.inflation, json);
   }
 
-  Progress begin(Recorder&) override {
-    solver_ =
-        is_solid(case_) ? solid_modes(case_, body_, request_.standing) : plane_modes(case_, body_);
-    return progress();
-  }
+  Progress begin(Recorder&) override { return progress(); }
   Progress advance(Recorder&) override {
     const std::size_t at = report_.spins.size();
     if (at < spins_.size()) {
-      solved_.push_back(solver_->modes(spins_[at], request_.count));
+      solved_.push_back(solve(spins_[at]));
       report_.spins.push_back(summarise_spin(spins_[at], solved_.back().found));
       judge(report_.spins.back());
       add_lines(spins_[at], solved_.back(), report_, report_.modes);
       if (report_.spins.size() == spins_.size()) write_shapes();
     } else {
       const double spin = sweep_[report_.sweep.size()];
-      const SolvedModes s = solver_->modes(spin, request_.count);
+      const SolvedModes s = solve(spin);
       report_.sweep.push_back(summarise_spin(spin, s.found));
       judge(report_.sweep.back());
       add_lines(spin, s, report_, sweep_lines_);
@@ -227,8 +224,6 @@ class ModesAnalysis final : public Analysis {
   [[nodiscard]] const std::optional<std::string>& trouble() const override { return trouble_; }
   void close() override {
     report_.critical = solver_->critical(request_.diameters);
-    if (const std::string note = solver_->critical_note(); !note.empty()) say(note);
-    report_.on_ground = solver_->standing();
     if (body_.cyclic() && !request_.standing)
       io::write_file(request_.run.directory / "critical-speeds.csv", critical_table(report_));
     warn_of_critical_spin();
@@ -274,6 +269,7 @@ class ModesAnalysis final : public Analysis {
     give_warnings({text}, request_.run);
     said_.push_back(text);
   }
+  [[nodiscard]] SolvedModes solve(double spin);
   void judge(const SpinSummary& s);
   void warn_of_critical_spin();
 
@@ -290,6 +286,16 @@ class ModesAnalysis final : public Analysis {
   std::optional<std::string> wrong_;  ///< the first thing, which ends nothing but counts at the end
   std::optional<std::string> trouble_;
 };
+
+/// Nothing where an inflated wheel has no state at this spin.
+SolvedModes ModesAnalysis::solve(double spin) {
+  try {
+    return solver_->modes(spin, request_.count);
+  } catch (const InputError& none) {
+    if (!wrong_) wrong_ = fmt::format("at {} rad/s: {}", spin, none.what());
+    return {};
+  }
+}
 
 /// If the body of the case turns as fast as a wave that stands still in space.
 void ModesAnalysis::warn_of_critical_spin() {
@@ -312,7 +318,7 @@ void ModesAnalysis::judge(const SpinSummary& s) {
         "eigenvalue{}. There is no stable state, and there are no modes; take a lower rotation "
         "speed",
         s.angular_velocity, s.unstable, s.unstable == 1 ? "" : "s");
-  else if (s.unstable == 0 && !s.counted)
+  else if (s.unstable == 0 && s.modes > 0 && !s.counted)
     say(fmt::format("at {} rad/s the modes are not counted: some may be missing",
                     s.angular_velocity));
   if (s.growth > 1e-3 * std::abs(s.angular_velocity))

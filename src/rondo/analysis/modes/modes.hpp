@@ -45,7 +45,6 @@ struct ModesReport {
   std::vector<ModeLine> modes;
   std::vector<SpinSummary> spins, sweep;
   std::vector<modal::CriticalSpeed> critical;
-  bool standing = false;
   std::optional<Standing> on_ground{};  ///< how, of a wheel that stands
   double outer_radius = 0.0;            ///< [m]; 0: no disk
   std::size_t nodes = 0, dofs = 0;

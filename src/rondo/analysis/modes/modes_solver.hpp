@@ -4,7 +4,6 @@
 #pragma once
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "rondo/analysis/modes/modes_body.hpp"
@@ -29,10 +28,8 @@ class ModesSolver {
 
   /// @param angular_velocity of the case, > 0 rolls towards +x [rad/s] @throws InputError
   [[nodiscard]] virtual SolvedModes modes(double angular_velocity, int count) = 0;
-  /// For each n = 1 … last that has one.
+  /// For each n = 1 … last that has one; of an inflated wheel about the state of the case.
   [[nodiscard]] virtual std::vector<modal::CriticalSpeed> critical(int last) = 0;
-  /// What the user must know of the critical speeds; empty: nothing. @pre critical()
-  [[nodiscard]] virtual std::string critical_note() const { return {}; }
   /// None: it does not touch the ground.
   [[nodiscard]] virtual std::optional<Standing> standing() const { return std::nullopt; }
 };

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/tyre/wheel_at_rest.hpp"
 #include "rondo/analysis/modes/modes_solver.hpp"
 #include "rondo/analysis/modes/standing_wheel.hpp"
-#include "rondo/core/error.hpp"
 #include "rondo/modal/residual.hpp"
 
 namespace rondo::study {
@@ -44,7 +41,10 @@ class SolidModes final : public ModesSolver {
         damping_{c.damping.mass, c.damping.stiffness},
         follows_spin_(c.inflation && !c.inflation->spin),
         wheel_(wheel_at(c, 0.0)) {
-    if (standing) standing_ = standing_wheel(c, wheel_.mesh, body.mass, wheel_.sector);
+    if (!standing) return;
+    standing_ = standing_wheel(c, wheel_.mesh, body.mass, wheel_.sector);
+    const std::size_t nodes = wheel_.mesh.n_nodes(), held = standing_->held.size();
+    demand_memory(c, nodes, mesh_memory(nodes) + 3 * nodes * held * sizeof(double));
   }
 
   [[nodiscard]] SolvedModes modes(double angular_velocity, int count) override {
@@ -67,42 +67,18 @@ class SolidModes final : public ModesSolver {
     return s;
   }
 
-  /// Spin stiffens an inflated wheel by about its square: first without, then with the difference
-  /// between the state at the lowest speed found and that at rest.
+  /// Of the motion about the state of the case.
   [[nodiscard]] std::vector<modal::CriticalSpeed> critical(int last) override {
     if (standing_) return {};
-    take(0.0);
-    std::vector<modal::CriticalSpeed> found = modal::critical_speeds(cyclic(), nullptr, last);
-    for (int pass = 0; follows_spin_ && pass < passes && !found.empty(); ++pass) {
-      const double spin = std::ranges::min_element(found, {}, &modal::CriticalSpeed::spin)->spin;
-      fem::SolidSector unit;
-      try {
-        unit = wheel_at(case_, spin).sector;
-      } catch (const InputError& none) {
-        critical_note_ = fmt::format(
-            "the critical speeds do not have all of the stiffening by the spin: at {:.5g} rad/s, "
-            "the "
-            "lowest of them, the wheel has no state ({})",
-            spin, none.what());
-        return found;
-      }
-      for (std::size_t e = 0; e < unit.entries.size(); ++e)
-        for (std::size_t i = 0; i < unit.entries[e].block.size(); ++i)
-          unit.entries[e].block[i] =
-              (unit.entries[e].block[i] - wheel_.sector.entries[e].block[i]) / (spin * spin);
-      found = modal::critical_speeds(cyclic(), &unit, last);
-    }
-    return found;
+    take(case_.motion.angular_velocity.at(0.0));
+    return modal::critical_speeds(cyclic(), nullptr, last);
   }
-  [[nodiscard]] std::string critical_note() const override { return critical_note_; }
   [[nodiscard]] std::optional<Standing> standing() const override {
     if (!standing_) return std::nullopt;
     return standing_->figures;
   }
 
  private:
-  static constexpr int passes = 2;
-
   void take(double spin) {
     if (!follows_spin_ || std::abs(spin) == spin_) return;
     wheel_ = wheel_at(case_, spin);
@@ -119,7 +95,6 @@ class SolidModes final : public ModesSolver {
   double spin_ = 0.0;  ///< of the state of the wheel, if it follows the spin [rad/s]
   WheelAt wheel_;
   std::optional<StandingWheel> standing_;
-  std::string critical_note_;
 };
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "rondo/analysis/build/physical.hpp"
+#include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/steady_start.hpp"
 #include "rondo/case/case_rules.hpp"
 #include "rondo/core/error.hpp"
@@ -12,11 +14,11 @@
 namespace rondo::study {
 namespace {
 
-double ground_height(const Case& c) {
+double ground_height(const Case& c, double radius) {
   if (!c.ground)
     throw case_error(c, "ground", "there is no ground to stand on",
                      "a [ground]; or the modes without --standing");
-  const std::optional<double> flat = flat_ground_below(c);
+  const std::optional<double> flat = flat_ground_below(c, radius);
   if (!flat)
     throw case_error(c, "ground.profile", "is not flat below the wheel at t = 0",
                      "another motion.start_x, or obstacles further away");
@@ -40,26 +42,59 @@ statics::RollingHarmonics<3> harmonics_of(const Case& c, const mesh::Mesh& mesh,
        .inertia = statics::RollingInertia::none});
 }
 
+/// A height is that of the end of its table.
+statics::RollingDrive drive_of(const Case& c, double ground) {
+  if (c.rim && c.rim->free_y)
+    throw case_error(c, "rim.free", "the height is free, and motion.height is only where it starts",
+                     "a height that motion.height gives; or steady rolling, whose analysis.load "
+                     "is taken");
+  statics::RollingDrive drive;
+  drive.load = c.analysis.load;
+  drive.height = c.motion.height.points().back()[1] - ground;
+  return drive;
+}
+
+const char* depth_key(const Case& c) {
+  return c.analysis.load ? "analysis.load" : "motion.height";
+}
+
+void refuse_within_rim(const Case& c, double height, const std::optional<Wall>& wall) {
+  const double rim = wall ? wall->radius - wall->thickness : 0.0;
+  if (height > rim) return;
+  throw case_error(
+      c, depth_key(c),
+      fmt::format("the ground is within the rim: the center is {:.6g} m above it", height),
+      fmt::format("a center well above {:.6g} m, the radius of the rim", rim));
+}
+
+void refuse(const Case& c, const statics::RollingSolution& found, double lowest,
+            const std::optional<Wall>& wall) {
+  if (found.end == statics::RollingEnd::no_contact)
+    throw case_error(c, depth_key(c), "the wheel does not touch the ground",
+                     fmt::format("the center less than {:.6g} m above the ground, the radius of "
+                                 "the wheel{}",
+                                 lowest, c.inflation ? " as it is inflated at rest" : ""));
+  if (found.end != statics::RollingEnd::solved)
+    throw case_error(c, depth_key(c), "the contact of the standing wheel was not solved",
+                     "a larger height or a smaller load, which press it less");
+  refuse_within_rim(c, found.height, wall);
+}
+
 }  // namespace
 
 StandingWheel standing_wheel(const Case& c, const mesh::Mesh& mesh, std::span<const double> mass,
                              const fem::SolidSector& sector) {
-  const double height = c.motion.height.points().back()[1] - ground_height(c);
+  const std::optional<Wall> wall = wall_of(mesh);
+  const statics::RollingDrive drive =
+      drive_of(c, ground_height(c, wall ? wall->radius : c.disk.outer_radius));
+  if (!drive.load) refuse_within_rim(c, drive.height, wall);
   const statics::RollingHarmonics<3> harmonics = harmonics_of(c, mesh, mass, sector);
-  statics::RollingWindow<3> window(harmonics, statics::SlipDifference::upwind, c.motion.camber);
-  statics::RollingDrive drive;
-  drive.height = height;
+  statics::RollingWindow<3> window(harmonics, statics::SlipDifference::upwind, c.motion.camber,
+                                   c.motion.gravity.at(0.0));
   const statics::RollingSolution found = statics::solve_rolling(window, drive);
-  if (found.end == statics::RollingEnd::no_contact)
-    throw case_error(
-        c, "motion.height",
-        fmt::format("nothing touches: the center is {:.6g} m above the ground", height),
-        fmt::format("less than {:.6g} m above the ground", window.lowest()));
-  if (found.end != statics::RollingEnd::solved)
-    throw case_error(c, "motion.height", "the contact of the standing wheel was not solved",
-                     "a larger height, which presses it less");
+  refuse(c, found, window.lowest(), wall);
   StandingWheel wheel;
-  wheel.figures = {height, found.forces.normal, 0};
+  wheel.figures = {found.height, found.forces.normal, 0};
   const statics::NodeMatrix<3> axes = statics::ground_axes<3>(window.problem().lean);
   const bool sticks = c.ground->friction > 0.0;
   for (std::size_t k = 0; k < window.pairs().size(); ++k) {

@@ -16,8 +16,9 @@ struct StandingWheel {
   std::vector<modal::HeldDirection<3>> held;
 };
 
-/// Pressed down to motion.height without friction. @throws InputError: no flat ground, nothing
-/// touches
+/// Pressed down without friction, to motion.height or under analysis.load, with the pressures and
+/// the weight of the case. @throws InputError: no flat ground, nothing touches, a rim of free
+/// height, a ground within the rim
 [[nodiscard]] StandingWheel standing_wheel(const Case& c, const mesh::Mesh& mesh,
                                            std::span<const double> mass,
                                            const fem::SolidSector& sector);

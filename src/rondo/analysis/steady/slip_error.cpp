@@ -22,7 +22,7 @@ SlipError slip_error_of(const statics::RollingForces& upwind,
 
 std::string slip_warning(const Case& c, const std::optional<SlipError>& found,
                          const statics::RollingForces& used) {
-  constexpr double least_share_of_load = 1e-3;
+  constexpr double least_share_of_load = 1e-2;
   if (!c.analysis.estimate_slip_error) return {};
   const char* other = c.analysis.slip == RollingSlip::bdf2 ? "upwind" : "bdf2";
   if (!found)
@@ -33,7 +33,7 @@ std::string slip_warning(const Case& c, const std::optional<SlipError>& found,
   const bool has_force = std::hypot(used.heading, used.lateral) > least_share_of_load * used.normal;
   if (!has_force || found->share <= slip_error_told) return {};
   return fmt::format(
-      "analysis.samples_per_sector = {}: the force along the ground differs by {:.2g} % between "
+      "analysis.samples_per_sector = {}: the force along the ground differs by {:.3g} % between "
       "analysis.slip = \"upwind\" and \"bdf2\" (bound {:.0f} %); more samples, or more {}",
       c.analysis.samples_per_sector, 100.0 * found->share, 100.0 * slip_error_told,
       c.section ? "section.sectors" : "disk.mesh.circumferential");

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Error of the forces along the ground by the discretisation of the slip: the upwind
-/// difference overestimates the stick behind the entry of the contact, the difference of second
-/// order underestimates it, and both tend to the same force as samples are added (docs/steady.md,
-/// The error of the slip).
+/// @file  How far the forces along the ground differ between the two differences that the slip is
+/// taken by (docs/steady.md, The two formulas of the slip). Both tend to the same force as samples
+/// are added, most often from opposite sides: the difference is a measure of the error, no bound.
 #pragma once
 #include <optional>
 #include <string>
@@ -23,7 +22,7 @@ struct SlipError {
 [[nodiscard]] SlipError slip_error_of(const statics::RollingForces& upwind,
                                       const statics::RollingForces& bdf2) noexcept;
 
-/// For the user; empty: the error is small, or the force is less than a thousandth of the load.
+/// For the user; empty: the error is small, or the force is less than a hundredth of the load.
 /// @param found none: the other difference was not solved. @param used the forces of the state
 [[nodiscard]] std::string slip_warning(const Case& c, const std::optional<SlipError>& found,
                                        const statics::RollingForces& used);

@@ -50,14 +50,7 @@ std::vector<Vec2> load_of(const Case& c, const SteadyBody<2>& b) {
 }
 
 std::vector<Vec3> load_of(const Case& c, const SteadyBody<3>& b) {
-  if (c.pressures.empty()) return {};
-  dynamics::SolidBody body;
-  body.sector = b.sector;
-  add_solid_pressures(c, b.mesh, body);
-  std::vector<Vec3> load(b.sector.n_local());
-  for (const dynamics::SolidPressure& p : body.pressures)
-    for (std::size_t a = 0; a < load.size(); ++a) load[a] += p.pressure.at(0.0) * p.force[a];
-  return load;
+  return solid_sector_load(c, b.mesh, b.sector);
 }
 
 /// What is without mass hands it to rows below it.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/analysis/steady/steady_members.hpp"
 
+#include <cmath>
+
 #include "rondo/analysis/base/shared_members.hpp"
 #include "rondo/analysis/steady/steady.hpp"
 
@@ -108,7 +110,7 @@ constexpr JsonMember<OfSlip> slip_error_rows[] = {
     {"moment_aligning", "number", "N·m", "Of `moment_aligning`, of a 3D wheel",
      [](const OfSlip& s) { return s.solid ? Json(s.e.difference.aligning) : absent(); }},
     {"share", "number", "", "Of the force along the ground, over the mean of both",
-     [](const OfSlip& s) -> Json { return s.e.share; }},
+     [](const OfSlip& s) { return std::isfinite(s.e.share) ? Json(s.e.share) : absent(); }},
 };
 
 Json solid_only(const SteadyFigures& k, double value) {
@@ -173,8 +175,8 @@ constexpr JsonMember<SteadyFigures> figures_rows[] = {
      "`friction`; 0 if it is round-off",
      [](const SteadyFigures& k) -> Json { return k.power.scheme_share; }},
     {"slip_error", "object", "",
-     "Values with `analysis.slip` = \"upwind\" less those with \"bdf2\": the error of the "
-     "discretisation",
+     "Values with `analysis.slip` = \"upwind\" less those with \"bdf2\": a measure of the error of "
+     "the discretisation",
      [](const SteadyFigures& k) {
        return k.slip_error ? object_of(slip_error_rows, {*k.slip_error, k.solid}) : absent();
      },

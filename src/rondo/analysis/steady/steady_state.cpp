@@ -53,18 +53,23 @@ SteadyState<D>::SteadyState(const Case& c, const SteadyBody<D>& body)
 /// In the plane, where the speed is asked for and Newton does not find it, from the statuses of
 /// free rolling.
 template <int D>
-void SteadyState<D>::solve() {
+statics::RollingSolution SteadyState<D>::solved(statics::RollingWindow<D>& window) const {
   using statics::RollingEnd;
-  solution_ = statics::solve_rolling(window_, drive_);
-  if (D == 2 && solution_.end == RollingEnd::not_solved && (drive_.traction || drive_.torque)) {
+  statics::RollingSolution found = statics::solve_rolling(window, drive_);
+  if (D == 2 && found.end == RollingEnd::not_solved && (drive_.traction || drive_.torque)) {
     statics::RollingDrive rolling = drive_;
     rolling.traction.reset();
     rolling.torque.reset();
-    const auto free = statics::solve_rolling(window_, rolling);
-    if (free.end == RollingEnd::solved)
-      solution_ = statics::solve_rolling(window_, drive_, free.status);
+    const auto free = statics::solve_rolling(window, rolling);
+    if (free.end == RollingEnd::solved) found = statics::solve_rolling(window, drive_, free.status);
   }
-  if (solution_.end != RollingEnd::solved) return;
+  return found;
+}
+
+template <int D>
+void SteadyState<D>::solve() {
+  solution_ = solved(window_);
+  if (solution_.end != statics::RollingEnd::solved) return;
   spectrum_ = statics::spectrum_of(window_, solution_);
   power_ = statics::rolling_power(window_, solution_, spectrum_);
   u_ = window_.harmonics().fields(spectrum_, 0.0, false);
@@ -78,7 +83,7 @@ void SteadyState<D>::estimate_slip_error() {
   const bool is_upwind = slip_of(case_) == SlipDifference::upwind;
   statics::RollingWindow<D> other =
       body_.window_of(case_, is_upwind ? SlipDifference::bdf2 : SlipDifference::upwind);
-  const statics::RollingSolution found = statics::solve_rolling(other, drive_);
+  const statics::RollingSolution found = solved(other);
   if (found.end != statics::RollingEnd::solved) return;
   slip_error_ = is_upwind ? slip_error_of(solution_.forces, found.forces)
                           : slip_error_of(found.forces, solution_.forces);

@@ -54,6 +54,7 @@ class SteadyState final : public RolledState {
   [[nodiscard]] double resistance() const noexcept;
   [[nodiscard]] double slip_ratio() const noexcept;
   [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;
+  [[nodiscard]] statics::RollingSolution solved(statics::RollingWindow<D>& window) const;
   void solve();
   void estimate_slip_error();
   void refuse() const;
