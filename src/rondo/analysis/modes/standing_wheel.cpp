@@ -14,6 +14,9 @@
 namespace rondo::study {
 namespace {
 
+/// Tables are taken at their ends, once the wheel is set down and inflated [s].
+constexpr double at_last = 1e300;
+
 double ground_height(const Case& c, double radius) {
   if (!c.ground)
     throw case_error(c, "ground", "there is no ground to stand on",
@@ -39,10 +42,10 @@ statics::RollingHarmonics<3> harmonics_of(const Case& c, const mesh::Mesh& mesh,
        .candidates = candidate_rows(mesh, sector),
        .spin = any_spin,
        .rest_spin = c.inflation && c.inflation->spin ? *c.inflation->spin : any_spin,
-       .inertia = statics::RollingInertia::none});
+       .inertia = statics::RollingInertia::none,
+       .load = solid_sector_load(c, mesh, sector, at_last)});
 }
 
-/// A height is that of the end of its table.
 statics::RollingDrive drive_of(const Case& c, double ground) {
   if (c.rim && c.rim->free_y)
     throw case_error(c, "rim.free", "the height is free, and motion.height is only where it starts",
@@ -50,7 +53,7 @@ statics::RollingDrive drive_of(const Case& c, double ground) {
                      "is taken");
   statics::RollingDrive drive;
   drive.load = c.analysis.load;
-  drive.height = c.motion.height.points().back()[1] - ground;
+  drive.height = c.motion.height.at(at_last) - ground;
   return drive;
 }
 
@@ -90,7 +93,7 @@ StandingWheel standing_wheel(const Case& c, const mesh::Mesh& mesh, std::span<co
   if (!drive.load) refuse_within_rim(c, drive.height, wall);
   const statics::RollingHarmonics<3> harmonics = harmonics_of(c, mesh, mass, sector);
   statics::RollingWindow<3> window(harmonics, statics::SlipDifference::upwind, c.motion.camber,
-                                   c.motion.gravity.at(0.0));
+                                   c.motion.gravity.at(at_last));
   const statics::RollingSolution found = statics::solve_rolling(window, drive);
   refuse(c, found, window.lowest(), wall);
   StandingWheel wheel;

@@ -50,7 +50,7 @@ std::vector<Vec2> load_of(const Case& c, const SteadyBody<2>& b) {
 }
 
 std::vector<Vec3> load_of(const Case& c, const SteadyBody<3>& b) {
-  return solid_sector_load(c, b.mesh, b.sector);
+  return solid_sector_load(c, b.mesh, b.sector, 0.0);
 }
 
 /// What is without mass hands it to rows below it.

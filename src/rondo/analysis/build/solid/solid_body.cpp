@@ -139,14 +139,14 @@ void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidB
 }
 
 std::vector<Vec3> solid_sector_load(const Case& c, const mesh::Mesh& mesh,
-                                    const fem::SolidSector& sector) {
+                                    const fem::SolidSector& sector, double time) {
   if (c.pressures.empty()) return {};
   dynamics::SolidBody body;
   body.sector = sector;
   add_solid_pressures(c, mesh, body);
   std::vector<Vec3> load(sector.n_local());
   for (const dynamics::SolidPressure& p : body.pressures)
-    for (std::size_t a = 0; a < load.size(); ++a) load[a] += p.pressure.at(0.0) * p.force[a];
+    for (std::size_t a = 0; a < load.size(); ++a) load[a] += p.pressure.at(time) * p.force[a];
   return load;
 }
 

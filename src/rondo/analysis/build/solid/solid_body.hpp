@@ -16,9 +16,10 @@ std::vector<Vec2> solid_positions(const Setup& s);
 /// one that is held
 void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidBody& body);
 
-/// (n_local of the sector) the forces of these at t = 0, in the frame of a sector; empty: none [N].
+/// (n_local of the sector) the forces of these at a time, in the frame of a sector; empty: none
+/// [N].
 [[nodiscard]] std::vector<Vec3> solid_sector_load(const Case& c, const mesh::Mesh& mesh,
-                                                  const fem::SolidSector& sector);
+                                                  const fem::SolidSector& sector, double time);
 
 /// Extent along the axle [m].
 double width_of(const mesh::Mesh& mesh);
