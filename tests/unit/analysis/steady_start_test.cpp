@@ -114,8 +114,9 @@ TEST(SteadyStart, OtherSettingsOfInitialAreAdded) {
 
 TEST(SteadyStart, GroundIsFlatBelowTheBody) {
   const auto ground = [](const char* profile) {
-    return flat_ground_below(study::test::read_text(
-        text, {"initial.state=rest", std::string("ground.profile=") + profile}));
+    const Case c = study::test::read_text(
+        text, {"initial.state=rest", std::string("ground.profile=") + profile});
+    return flat_ground_below(c, c.disk.outer_radius);
   };
   EXPECT_EQ(ground("[[-1, 0.1], [1, 0.1]]"), 0.1);
   EXPECT_EQ(ground("[[0, 0], [0.3, 0], [0.3, 0.1], [1, 0.1]]"), 0.0);

@@ -90,9 +90,10 @@ Options modes_options(ModesRequest& r) {
        .help = "Largest number of nodal diameters for critical speeds",
        .range = OptionRange{0, 1000000}},
       {"--standing", "standing", &r.standing,
-       "Holds the nodes of a wheel in three dimensions that touch the ground when it is pressed to "
-       "motion.height (of a table, the last one) at rest: in all directions, or without friction "
-       "along the normal"},
+       "Holds the nodes of a wheel in three dimensions that touch the ground when it is pressed at "
+       "rest to motion.height, or under analysis.load: in all directions, or without friction "
+       "along "
+       "the normal"},
       {"--overwrite", "overwrite", &r.run.overwrite, "Replaces the results of another run"},
   };
 }
