@@ -18,7 +18,7 @@ OPTIONS: dict[str, dict[str, tuple[str, str]]] = {
         "spins": ("Sequence[float] | None = None", "Rotation speeds, > 0 rolls towards +x [rad/s]; if left out, 0 and that of the case at t = 0"),
         "sweep": ("str | None = None", "Rotation speeds, FROM:TO:NUMBER, at which the frequencies of a Campbell diagram are found [rad/s]"),
         "diameters": ("int | None = None", "Largest number of nodal diameters for critical speeds; default 12; 0 to 1000000"),
-        "standing": ("bool = False", "Holds the nodes of a wheel in three dimensions that touch the ground when it is pressed to motion.height (of a table, the last one) at rest: in all directions, or without friction along the normal"),
+        "standing": ("bool = False", "Holds the nodes of a wheel in three dimensions that touch the ground when it is pressed at rest to motion.height, or under analysis.load: in all directions, or without friction along the normal"),
         "overwrite": ("bool = False", "Replaces the results of another run"),
     },
     "pod": {

@@ -217,7 +217,7 @@ MEMBERS: dict[str, tuple[str, str, str]] = {
     "steady.power.scheme": ("W/m", "W", "Difference between the slip of the law and the velocity of the field"),
     "steady.power.residual": ("", "", "drive + mass + stiffness + friction − weight − scheme, over the largest of them"),
     "steady.scheme_share": ("", "", "|scheme| of power over the largest of drive, damping (mass + stiffness) and friction; 0 if it is round-off"),
-    "steady.slip_error": ("", "", "Values with analysis.slip = \"upwind\" less those with \"bdf2\": the error of the discretisation"),
+    "steady.slip_error": ("", "", "Values with analysis.slip = \"upwind\" less those with \"bdf2\": a measure of the error of the discretisation"),
     "steady.slip_error.force_x": ("N/m", "N", "Of force_x"),
     "steady.slip_error.force_lateral": ("N", "N m", "Of force_lateral, of a 3D wheel"),
     "steady.slip_error.moment_aligning": ("N·m", "N·m", "Of moment_aligning, of a 3D wheel"),

@@ -114,7 +114,7 @@ TEST(SteadyStart, OtherSettingsOfInitialAreAdded) {
 
 TEST(SteadyStart, GroundIsFlatBelowTheBody) {
   const auto ground = [](const char* profile) {
-    const Case c = study::test::read_text(
+    const study::Case c = study::test::read_text(
         text, {"initial.state=rest", std::string("ground.profile=") + profile});
     return flat_ground_below(c, c.disk.outer_radius);
   };
