@@ -3,7 +3,7 @@
 # of the second. house_install compiles each of them by itself against what is installed.
 set(RONDO_PUBLIC_HEADERS
     core/error.hpp core/version.hpp case/case.hpp case/setup.hpp
-    output/run_options.hpp analysis/run.hpp analysis/build/build.hpp analysis/modes/modes.hpp analysis/modes/standing.hpp
+    output/run_options.hpp analysis/run.hpp analysis/build/build.hpp analysis/modes/modes.hpp
     analysis/matrices/matrices.hpp analysis/matrices/operators.hpp analysis/matrices/contact_rows.hpp
     study/pod/pod.hpp study/reduce/reduce.hpp io/run_reader.hpp
     mesh/mesh.hpp mesh/disk.hpp mesh/gmsh_reader.hpp
@@ -13,7 +13,8 @@ set(RONDO_PUBLIC_HEADERS
     integrators/integrator.hpp integrators/start.hpp)
 set(RONDO_INCLUDED_HEADERS
     core/complex.hpp core/contract.hpp core/field.hpp core/ground_frame.hpp core/index.hpp core/sum.hpp core/vec2.hpp core/vec3.hpp
-    case/analysis_kinds.hpp case/inflation_case.hpp case/inflation_figures.hpp analysis/build/bodies.hpp io/h5/h5.hpp io/h5/hash.hpp
+    case/analysis_kinds.hpp case/inflation_case.hpp case/inflation_figures.hpp analysis/modes/standing.hpp
+    analysis/build/bodies.hpp io/h5/h5.hpp io/h5/hash.hpp
     fem/element.hpp fem/nodal_dilatation.hpp fem/rubber.hpp
     fem/hyperelastic/numbers.hpp fem/hyperelastic/laws.hpp fem/hyperelastic/branch.hpp
     fem/hyperelastic/element.hpp fem/hyperelastic/stress.hpp modal/critical_speeds.hpp modal/modes.hpp

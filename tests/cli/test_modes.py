@@ -62,7 +62,8 @@ class Modes(ProgramTest):
         self.assertIn("backward", done.stdout)
         rows = table(out / "modes.csv")
         self.assertEqual(list(rows[0]), ["mode", "frequency_rad_s", "frequency_hz",
-                                         "nodal_diameters", "wave", "spin_rad_s", "residual"])
+                                         "nodal_diameters", "wave", "spin_rad_s", "residual",
+                                         "damping_ratio"])
         self.assertEqual([r["mode"] for r in rows], [str(k + 1) for k in range(len(rows))])
         self.assertEqual([float(r["spin_rad_s"]) for r in rows], 7 * [0.0] + 7 * [50.0])
         self.assertEqual({r["wave"] for r in rows[:7]}, {"standing"})

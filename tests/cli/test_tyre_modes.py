@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""rondo modes of a tyre about its inflated state, free of the ground and standing on it."""
+"""rondo modes of a tyre about its inflated state, free of the ground."""
 import csv
-import json
 import unittest
 
 import h5py
 import numpy as np
 
 from program import run, summary
-from test_tyre import MOVING, ROLLING, TyreTest
+from test_tyre import MOVING, TyreTest
 
 
-class Modes(TyreTest):
+class ModesTest(TyreTest):
     """Frequencies about the inflated state, by an independent calculation."""
 
     def modes(self, sectors, *arguments, code=0):
@@ -23,6 +22,8 @@ class Modes(TyreTest):
         with open(self.results / "modes.csv", newline="") as file:
             return [{**row, "frequency_hz": float(row["frequency_hz"])} for row in csv.DictReader(file)]
 
+
+class Modes(ModesTest):
     def test_at_rest(self):
         rows = self.modes(120, "--count", 14, "--spin", 0)
         for n, expected in ((0, (36.60, 43.26)), (1, (45.88, 64.13)), (2, (79.61, 87.93))):
@@ -42,26 +43,6 @@ class Modes(TyreTest):
         np.testing.assert_allclose([row["frequency_hz"] for row in rows], [36.78, 37.46, 39.50, 42.78],
                                    atol=6e-3)
 
-    def test_a_tyre_that_stands(self):
-        """Held by the ground, it is stiffer; free to slide there, less so; not in contact, refused."""
-        ground = ("--set", 'ground={profile = "flat", friction = 0.9}', "--standing", "--count", 3)
-        held = self.modes(60, *ground, "--set", "motion.height=0.299968")
-        load = json.loads((self.results / "modes.json").read_text())["standing"]
-        sliding = self.modes(60, *ground, "--set", "motion.height=0.299968", "--set", "ground.friction=0")
-        free = self.modes(60, "--count", 3, "--spin", 0)
-        lowest = [rows[0]["frequency_hz"] for rows in (free, sliding, held)]
-        self.assertEqual(lowest, sorted(lowest))
-        self.assertGreater(lowest[2], lowest[0] * 1.1)
-        self.assertEqual([row["nodal_diameters"] for row in held], [""] * 3)
-        self.assertAlmostEqual(load["load"] / 3764.0, 1.0, delta=1e-3)
-        self.assertGreater(load["nodes"], 20)
-        said = self.modes(60, *ground, "--set", "motion.height=0.32", code=2)
-        self.assertIn("motion.height", said)
-        self.assertIn("the wheel does not touch the ground (allowed: the center less than 0.31598 m", said)
-        said = self.modes(60, *ground, "--spin", 10, "--set", "motion.height=0.299968", code=2)
-        self.assertIn("a wheel that stands does not turn", said)
-        self.assertIn("there is no ground to stand on", self.modes(60, "--standing", code=2))
-
     def test_at_a_critical_speed_a_wave_stands_still(self):
         """Its frequency in the wheel is then n times the spin; more diameters change nothing."""
         case = self.case(MOVING.replace("[inflation]\n", "[inflation]\nspin = 33.0\n"))
@@ -73,14 +54,14 @@ class Modes(TyreTest):
             with open(self.results / "critical-speeds.csv", newline="") as file:
                 return [float(row["critical_spin_rad_s"]) for row in csv.DictReader(file)]
 
-        speeds = critical(4)
+        speeds = critical(3)
         np.testing.assert_allclose(critical(2), speeds[:2], rtol=1e-12)
-        done = run("modes", case, "-o", self.results, "--overwrite", "--diameters", 0, "--count", 60, "--spin",
-                   speeds[2], speeds[3])
+        done = run("modes", case, "-o", self.results, "--overwrite", "--diameters", 0, "--count", 30, "--spin",
+                   speeds[0], speeds[1])
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.results / "modes.csv", newline="") as file:
             rows = list(csv.DictReader(file))
-        for n in (3, 4):
+        for n in (1, 2):
             backward = [float(row["frequency_rad_s"]) for row in rows
                         if row["nodal_diameters"] == str(n) and row["wave"] == "backward"
                         and float(row["spin_rad_s"]) == speeds[n - 1]]
@@ -99,20 +80,6 @@ class Modes(TyreTest):
         with h5py.File(self.results / "modes.h5") as file:
             self.assertEqual(file["modes/real"].shape[0], len(spins))
 
-    def test_a_tyre_stands_under_a_load(self):
-        loaded = self.case(ROLLING.replace("height = 0.299968\n", "").replace(
-            "torque = 0.0\n", "torque = 0.0\nload = 3000.0\n"))
-        done = run("modes", loaded, "-o", self.results, "--standing", "--count", 2, "--set",
-                   "section.sectors=24")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        standing = json.loads((self.results / "modes.json").read_text())["standing"]
-        self.assertAlmostEqual(standing["load"], 3000.0, delta=1e-6)
-        self.assertAlmostEqual(standing["height"], 0.304, delta=0.004)
-        done = run("modes", self.case(ROLLING), "-o", self.folder / "deep", "--standing", "--set",
-                   "motion.height=0.1")
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("the ground is within the rim", done.stderr)
-        self.assertFalse((self.folder / "deep").exists())
 
 
 if __name__ == "__main__":

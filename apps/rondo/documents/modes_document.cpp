@@ -88,9 +88,9 @@ constexpr JsonMember<ModesReport> modes_members[] = {
      [] { return texts_of(spin_members); }},
     {"critical_speeds", "array", "", "at which a wave stands still in space", critical_of,
      [] { return texts_of(critical_members); }},
-    {"standing", "object", "", "how the wheel stands, with --standing",
+    {"standing", "object or null", "", "how the wheel stands; null: without --standing",
      [](const ModesReport& r) {
-       return r.on_ground ? object_of(standing_members, *r.on_ground) : study::absent();
+       return r.on_ground ? object_of(standing_members, *r.on_ground) : Json();
      },
      [] { return texts_of(standing_members); }},
     {"residual_max", "number", "", "of all modes",
