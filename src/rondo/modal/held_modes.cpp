@@ -137,7 +137,7 @@ class HeldProblem {
       }
     Mode mode;
     mode.omega = omega;
-    mode.real = std::move(shape);
+    mode.real = Field(std::move(shape));
     mode.imaginary = Field(body_.mass.size(), D);
     normalise(mode, body_.mass);
     return mode;

@@ -191,8 +191,8 @@ Mode mode_of(const ReducedBody& r, std::span<const double> mass, const Eigen::Ve
     imaginary[node] = {x[at].imag(), x[at + 1].imag()};
   }
   Mode mode;
-  mode.real = std::move(real);
-  mode.imaginary = std::move(imaginary);
+  mode.real = Field(std::move(real));
+  mode.imaginary = Field(std::move(imaginary));
   normalise(mode, mass);
   return mode;
 }

@@ -39,8 +39,8 @@ void spread(const CyclicBody<D>& body, int n, const Eigen::VectorXcd& w, Mode& m
       }
     }
   }
-  mode.real = std::move(real);
-  mode.imaginary = std::move(imaginary);
+  mode.real = Field(std::move(real));
+  mode.imaginary = Field(std::move(imaginary));
 }
 
 /// The numbers of both parts.

@@ -65,8 +65,7 @@ fine = {region = "skin"}
     const std::vector<std::string> rim{"rim.free=['speed', 'height', 'angular_velocity']",
                                        "rim.mass=100", "rim.inertia=1", "motion.gravity=9.81"};
     const std::vector<std::string> steady{"analysis.kind=steady-rolling", "ground.profile=flat",
-                                          "analysis.samples_per_sector=1",
-                                          "analysis.inertia=waves",
+                                          "analysis.samples_per_sector=1", "analysis.inertia=waves",
                                           "analysis.estimate_slip_error=true"},
         loaded{"analysis.kind=steady-rolling", "ground.profile=flat", "analysis.load=1e5",
                "analysis.torque=100"},
