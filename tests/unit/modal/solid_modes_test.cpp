@@ -143,6 +143,11 @@ TEST(SolidModes, HeldByTheGroundAreThoseOfTheConstrainedWheel) {
     EXPECT_NEAR(found.modes[k].omega / exact[k], 1.0, 1e-8) << k;
     EXPECT_LT(modal::residual<3>(w.cyclic(), held, found.modes[k]), 1e-8) << k;
   }
+  for (const int count : {1, 2, 3, 5, 8, 12}) {
+    const auto few = modal::held_modes<3>(w.cyclic(), held, count);
+    EXPECT_TRUE(few.counted) << count;
+    EXPECT_EQ(few.modes.size(), static_cast<std::size_t>(count));
+  }
   const auto loose = modal::held_modes<3>(w.cyclic(), {}, 20);
   EXPECT_LT(loose.modes[0].omega, found.modes[0].omega);
   EXPECT_NEAR(loose.modes[0].omega / dense_frequencies(w, 0.0)[0], 1.0, 1e-8);
