@@ -23,13 +23,13 @@ RADIUS = {60: 0.3160220882654649, 120: 0.3160058174535423}  # inflated at SPIN, 
 class Samples(TyreTest):
     """1 degree of slip angle, 10 mm deep, as the design's prototype rolled: V = .3122 omega."""
 
-    def steady(self, sectors, slip, samples, *settings, degrees=1.0):
+    def steady(self, sectors, slip, samples, *settings):
         radius = RADIUS[sectors]
         done = run("run", self.case(STEADY), "-o", self.results, "--overwrite",
                    *(word for setting in (
                        f"section.sectors={sectors}",
                        f"motion.height={radius - 0.01!r}", f"motion.speed={0.3122 * SPIN!r}",
-                       f"motion.slip_angle={degrees * DEGREE!r}", f"analysis.slip={slip}",
+                       f"motion.slip_angle={DEGREE!r}", f"analysis.slip={slip}",
                        f"analysis.samples_per_sector={samples}", *settings)
                      for word in ("--set", setting)))
         self.assertEqual(done.returncode, 0, done.stderr)

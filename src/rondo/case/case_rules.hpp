@@ -47,8 +47,8 @@ void check_flat_ground(CaseValues& in, const Case& c, std::string_view who);
 /// Rules of initial.state = "steady-rolling".
 void check_steady_start(CaseValues& in, const Case& c);
 
-/// Height of the ground if it is flat below the whole body at t = 0. @pre there is ground without
-/// faults                                                                            [m]
+/// Height of the ground if it is flat below a body of this radius at t = 0 [m]. @pre there is
+/// ground without faults
 std::optional<double> flat_ground_below(const Case& c, double radius);
 
 /// Requires a key because another key is given; adds no fault if the kind of analysis has one.

@@ -89,8 +89,7 @@ class HeldProblem {
         place_of_[body.stiffness.node(a, j)] =
             static_cast<Index>(D * (j * body.stiffness.n_local() + a));
     for (const HeldDirection<D>& h : held) rows_.push_back(row_of(h));
-    solved_ = compliance(elastic_, &columns_);
-    factor_.compute(solved_);
+    factor_.compute(compliance(elastic_, &columns_));
   }
 
   [[nodiscard]] bool found() const {
@@ -190,7 +189,7 @@ class HeldProblem {
   CyclicInverse elastic_;
   std::vector<Index> place_of_;  ///< (n) of a node's unknowns in a vector; -1: clamped
   std::vector<Row> rows_;
-  MatrixXd columns_, solved_;
+  MatrixXd columns_;  ///< A⁻¹ Hᵀ
   Eigen::LLT<MatrixXd> factor_;
 };
 

@@ -31,7 +31,8 @@ testing::AssertionResult has(const std::string& text, const std::string& part) {
   return testing::AssertionFailure() << "\"" << part << "\" is not in \"" << text << "\"";
 }
 
-/// Of a torus and a plane, counted: the area of the section at a small depth, times the pressure.
+/// A plane cuts a torus: the strips of the cut are summed, and their area times the pressure is the
+/// load.
 TEST(PressedTyre, TheAirBearsWhatAPlaneCutsOfATorus) {
   const double depth = 1e-4, tube = 0.5 * state.width, ring = state.outer_radius - tube;
   const double floor = state.outer_radius - depth;

@@ -95,7 +95,7 @@ void tell_deflection(const std::string& key, double deflection, const Wall& wall
                     deflection, 100.0 * share, wall.thickness, of_modulus));
 }
 
-/// The same of a tyre, whose wall bends and whose air bears the load.
+/// Tells how far a tyre is pressed in, and about how hard, by its air instead of a layer.
 void tell_deflection(const std::string& key, double deflection, const PressedTyre& tyre,
                      double lean, const Tell& to) {
   if (deflection > 0.0) {

@@ -61,7 +61,7 @@ std::string free_text(const RimBody& rim) {
                      free.empty() || held.empty() ? "" : "; ", held.empty() ? "" : "held ", held);
 }
 
-/// Of rim and body at the end of the run.
+/// Weight of rim and body at the end of the run.
 Vec2 weight_of(const Case& c, const dynamics::Model& model) {
   double mass = model.rim->mass;
   for (const int node : model.free) mass += model.mass[at(node)];

@@ -39,6 +39,7 @@ double complete_solid(const Case& c, ModesBody& b) {
                      c.section ? "the curve that the rim holds" : "\"bonded\"");
   WheelAtRest rest = wheel_at_rest(c, b.mesh, b.materials);
   b.mass = std::move(rest.mass);
+  b.sector = std::move(rest.sector);
   b.inflation = std::move(rest.inflation);
   return rest.frequencies_below;
 }

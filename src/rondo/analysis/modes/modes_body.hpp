@@ -8,6 +8,7 @@
 #include "rondo/case/case.hpp"
 #include "rondo/case/inflation_figures.hpp"
 #include "rondo/fem/elasticity.hpp"
+#include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::study {
@@ -20,6 +21,8 @@ struct ModesBody {
   int free = 0;                         ///< bodies that nothing holds
   bool wide_rows = false;               ///< has_wide_rows()
   std::vector<std::string> warnings{};  ///< warnings of the case and the mesh
+  // Of a wheel in three dimensions, about the state of the case:
+  fem::SolidSector sector{};
   std::optional<InflationFigures> inflation{};
 
   [[nodiscard]] bool cyclic() const noexcept { return mesh.n_sectors > 0; }

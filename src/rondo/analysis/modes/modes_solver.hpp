@@ -13,10 +13,10 @@
 
 namespace rondo::study {
 
-/// Modes at one spin. @param damping_ratios NaN of rigid-body motions
+/// Modes at one spin, and a residual and a damping ratio of each.
 struct SolvedModes {
   modal::Modes found;
-  std::vector<double> residuals, damping_ratios;
+  std::vector<double> residuals, damping_ratios;  ///< ratios: NaN of rigid-body motions
 };
 
 class ModesSolver {

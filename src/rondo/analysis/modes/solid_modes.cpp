@@ -40,8 +40,10 @@ class SolidModes final : public ModesSolver {
         body_(body),
         damping_{c.damping.mass, c.damping.stiffness},
         follows_spin_(c.inflation && !c.inflation->spin),
-        wheel_(wheel_at(c, 0.0)) {
+        spin_(std::abs(c.motion.angular_velocity.at(0.0))),
+        wheel_{body.mesh, body.sector} {
     if (!standing) return;
+    take(0.0);
     standing_ = standing_wheel(c, wheel_.mesh, body.mass, wheel_.sector);
     const std::size_t nodes = wheel_.mesh.n_nodes(), held = standing_->held.size();
     demand_memory(c, nodes, mesh_memory(nodes) + 3 * nodes * held * sizeof(double));
@@ -67,7 +69,7 @@ class SolidModes final : public ModesSolver {
     return s;
   }
 
-  /// Of the motion about the state of the case.
+  /// Takes the state of the case for all n.
   [[nodiscard]] std::vector<modal::CriticalSpeed> critical(int last) override {
     if (standing_) return {};
     take(case_.motion.angular_velocity.at(0.0));
@@ -92,7 +94,7 @@ class SolidModes final : public ModesSolver {
   const ModesBody& body_;
   modal::Damping damping_;
   bool follows_spin_;
-  double spin_ = 0.0;  ///< of the state of the wheel, if it follows the spin [rad/s]
+  double spin_;  ///< of the state of the wheel, if it follows the spin [rad/s]
   WheelAt wheel_;
   std::optional<StandingWheel> standing_;
 };

@@ -12,7 +12,7 @@ namespace rondo::study {
 
 struct StandingWheel {
   Standing figures;
-  /// Of the nodes that touch: all directions with friction, else along the normal.
+  /// Friction holds a node that touches in all directions; without it the normal alone is held.
   std::vector<modal::HeldDirection<3>> held;
 };
 

@@ -55,7 +55,7 @@ class RolledState {
   [[nodiscard]] virtual double deflection() const = 0;
   /// Where power goes. @pre it is solved
   [[nodiscard]] virtual const statics::RollingPower& power() const noexcept = 0;
-  /// Of the accuracy of a solved state, for the user; empty: none.
+  /// Tells the user that a solved state is not accurate; empty: it is.
   [[nodiscard]] virtual std::string warning() const = 0;
   /// Adds "steady" to run.json.
   virtual void describe(Json& json) const = 0;

@@ -97,7 +97,7 @@ constexpr JsonMember<statics::RollingPower> power_rows[] = {
      [](const statics::RollingPower& p) -> Json { return p.residual; }},
 };
 
-/// Of steady rolling in the plane, or of a wheel in three dimensions.
+/// Differences, and whether they are those of a wheel in three dimensions.
 struct OfSlip {
   const SlipError& e;
   bool solid;

@@ -29,7 +29,7 @@ struct PressedTyre {
 /// @param load > 0 [N] @pre the pressure is not 0
 [[nodiscard]] PhysicalFigures under_load(const std::string& key, double load,
                                          const PressedTyre& tyre);
-/// The same for a deflection that is given. @param deflection > 0 [m]
+/// Lines and warnings for a deflection that is given. @param deflection > 0 [m]
 [[nodiscard]] PhysicalFigures pressed_in(const std::string& key, double deflection,
                                          const PressedTyre& tyre);
 
