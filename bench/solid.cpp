@@ -2,8 +2,8 @@
 /// Cost of a step of a wheel in three dimensions in ns per degree of freedom and step, for the
 /// whole step with spin, both dampings and ledger: `bench_solid [ROUNDS [THREADS [LARGEST]]]`,
 /// LARGEST 1 to 3 of the sizes below. The same step by assembled rows of 3×3 blocks is shown for
-/// comparison. Wheels spin freely, or roll with a slip angle. The smallest time of a batch of steps
-/// counts, because the machine may do other work.
+/// comparison. Wheels spin freely, or roll with a slip angle, driven or on a rim with a load. The
+/// smallest time of a batch of steps counts, because the machine may do other work.
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -14,6 +14,7 @@
 #include <ctime>
 #include <fstream>
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -57,7 +58,20 @@ fem::Material rubber() {
   return m;
 }
 
-dynamics::Model model_of(const mesh::Wheel& wheel, bool rolling, int threads) {
+enum class Motion { spinning, rolling, loaded };
+
+/// As high as it is driven at, and held there by its load and a spring.
+dynamics::RimBody loaded_rim(double height) {
+  dynamics::RimBody rim;
+  rim.free_y = rim.free_spin = true;
+  rim.mass = 10.0;
+  rim.inertia = 0.3;
+  rim.force_y = dynamics::Table(-3000.0);
+  rim.support_y = {1e6, 4000.0, height};
+  return rim;
+}
+
+dynamics::Model model_of(const mesh::Wheel& wheel, Motion motion, int threads) {
   const mesh::Mesh mesh = mesh::make_wheel(wheel);
   const std::vector<fem::Material> materials{rubber()};
   dynamics::Model m;
@@ -72,7 +86,9 @@ dynamics::Model model_of(const mesh::Wheel& wheel, bool rolling, int threads) {
   m.stiffness_damping = 0.02 * m.dt;
   m.motion.angular_velocity = dynamics::Table(33.7);
   m.motion.speed = dynamics::Table(10.0);
-  m.motion.height = dynamics::Table(rolling ? 0.298 : 1.0);
+  const double height = motion == Motion::spinning ? 1.0 : 0.298;
+  m.motion.height = dynamics::Table(height);
+  if (motion == Motion::loaded) m.rim = loaded_rim(height);
   m.motion.slip_angle = dynamics::Table(0.03);
   m.contact.emplace(dynamics::ContactModel{
       contact::Ground({}), {.friction = 0.3}, mesh.boundary, mesh.tributary});
@@ -136,8 +152,8 @@ Measured measure_blocks(const dynamics::Model& m, int rounds, int batch) {
   return {1e9 * time / (n_dofs(m) * batch), (resident() - before) / n_dofs(m), blocks.kinetic()};
 }
 
-void print(const char* name, const char* what, const dynamics::Model& m, const Measured& x) {
-  fmt::print("{:4} {:26} {:9.0f} dofs {:8.2f} ns {:7.0f} B a dof\n", name, what, n_dofs(m), x.ns,
+void print(const char* name, const std::string& what, const dynamics::Model& m, const Measured& x) {
+  fmt::print("{:4} {:29} {:8.0f} dofs {:8.2f} ns {:7.0f} B a dof\n", name, what, n_dofs(m), x.ns,
              x.bytes);
   std::fflush(stdout);
 }
@@ -152,15 +168,14 @@ int main(int argc, char** argv) {
     const Size& s = sizes[i];
     const int batch = i == 0 ? 32 : 8;
     for (const bool tread : {false, true})
-      for (const bool rolling : {false, true}) {
-        const dynamics::Model m = model_of(wheel_of(s, tread), rolling, threads);
+      for (const Motion motion : {Motion::spinning, Motion::rolling, Motion::loaded}) {
+        const dynamics::Model m = model_of(wheel_of(s, tread), motion, threads);
         const Measured fast = measure(m, rounds, batch);
+        constexpr const char* names[] = {"", ", rolling", ", rolling, loaded rim"};
         print(s.name,
-              tread     ? (rolling ? "treaded, rolling" : "treaded")
-              : rolling ? "smooth, rolling"
-                        : "smooth",
-              m, fast);
-        if (rolling || tread || threads > 1) continue;
+              fmt::format("{}{}", tread ? "treaded" : "smooth", names[static_cast<int>(motion)]), m,
+              fast);
+        if (motion != Motion::spinning || tread || threads > 1) continue;
         const Measured rows = measure_blocks(m, std::max(1, rounds / 10), batch / 4);
         print(s.name, "rows of 3×3 blocks", m, rows);
       }

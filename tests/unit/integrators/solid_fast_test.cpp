@@ -12,6 +12,7 @@
 #include "rondo/integrators/fused/solid/solid_cyclic_integrator.hpp"
 #include "rondo/integrators/integrator.hpp"
 #include "rondo/integrators/solid/solid_integrator.hpp"
+#include "rondo/integrators/solid/solid_wheel_integrator.hpp"
 #include "rondo/integrators/start.hpp"
 #include "support/solid_wheel.hpp"
 
@@ -32,6 +33,8 @@ struct Case {
   double camber = 0.03;
   double pressure = 0.0;  ///< on the tread                                              [Pa]
   bool unsteady = true;   ///< spin, slip angle, height and pressure change; gravity
+  bool rim = false;       ///< free along t1 and n and about the axle, with loads
+  bool rest = false;      ///< the state at rest has forces of its own
   bool obstacle = false;  ///< a ramp with rounded edges, and a concave corner
 };
 
@@ -60,6 +63,18 @@ std::vector<mesh::Face> faces_of_tread(const mesh::Mesh& mesh) {
   for (const mesh::Surface& surface : mesh.surfaces)
     if (surface.name == "tread") return surface.faces;
   return {};
+}
+
+RimBody some_rim() {
+  RimBody rim;
+  rim.free_x = rim.free_y = rim.free_spin = true;
+  rim.mass = 9.0;
+  rim.inertia = 0.2;
+  rim.force_x = Table(300.0);
+  rim.force_y = Table(-6000.0);
+  rim.torque = Table(40.0);
+  rim.support_y = {2e5, 900.0, 0.3};
+  return rim;
 }
 
 Model model_of(const Case& c) {
@@ -92,6 +107,13 @@ Model model_of(const Case& c) {
     m.solid->pressures.push_back({force, Table({{0.0, 0.0}, {end, c.pressure}})});
     m.solid->pressures.push_back({force, Table(0.1 * c.pressure)});
   }
+  if (c.rest) {
+    std::vector<Vec3> outwards;
+    for (std::size_t a = 0; a < m.solid->sector.n_local(); ++a)
+      outwards.push_back({30.0, 0.0, 0.0});
+    m.solid->pressures.push_back({outwards, Table(1.0), true});
+  }
+  if (c.rim) m.rim = some_rim();
   return m;
 }
 
@@ -178,6 +200,12 @@ void expect_near(const Outcome& a, const Outcome& b, double bound) {
     for (const auto& [of_a, of_b] : {std::pair{e.kinetic, f.kinetic},
                                      {e.strain, f.strain},
                                      {w.frame, x.frame},
+                                     {w.gravity, x.gravity},
+                                     {w.held, x.held},
+                                     {w.scheme, x.scheme},
+                                     {w.torque, x.torque},
+                                     {e.kinetic_rim, f.kinetic_rim},
+                                     {e.support, f.support},
                                      {w.contact, x.contact},
                                      {w.dissipation_friction, x.dissipation_friction},
                                      {w.loss_impact, x.loss_impact},
@@ -244,6 +272,15 @@ std::vector<Case> cases() {
   all.push_back({.name = "restitution", .restitution = 0.5});
   all.push_back({.name = "obstacle", .friction = 0.8, .obstacle = true});
   all.push_back({.name = "no_friction", .friction = 0.0});
+  all.push_back({.name = "rim", .rim = true});
+  all.push_back({.name = "rim_without_beta", .beta = 0.0, .restitution = 0.3, .rim = true});
+  all.push_back({.name = "rim_steady", .camber = 0.0, .unsteady = false, .rim = true});
+  all.push_back({.name = "rim_pressure", .pressure = 2e4, .rim = true, .rest = true});
+  all.push_back({.name = "rim_odd_rows", .wheel = test::box_wheel(4, 3, 77), .rim = true});
+  all.push_back({.name = "rim_pitches",
+                 .wheel = treaded(4, 4, {19, 0.02, 3, 1, 2}),
+                 .rim = true,
+                 .rest = true});
   all.push_back({.name = "pitches", .wheel = treaded(4, 4, {19, 0.02, 3, 1, 2})});
   all.push_back(
       {.name = "pitches_pressure", .wheel = treaded(4, 3, {41, 0.02, 1, 1, 1}), .pressure = 2e4});
@@ -264,6 +301,11 @@ std::vector<Case> cases() {
 
 class SolidFast : public testing::TestWithParam<Case> {};
 
+std::unique_ptr<Integrator> readable_step(const Model& model, const State& start) {
+  if (model.rim) return std::make_unique<SolidWheelIntegrator>(model, start);
+  return std::make_unique<SolidIntegrator>(model, start);
+}
+
 long contacts_of(const Outcome& o) {
   long contacts = 0;
   for (const StepReport& report : o.reports) contacts += report.contact.nodes;
@@ -274,8 +316,8 @@ long contacts_of(const Outcome& o) {
 
 TEST_P(SolidFast, AgreesWithTheReadableStep) {
   const Model model = model_of(GetParam());
-  SolidIntegrator readable(model, start_of(model));
-  const Outcome expected = after(model, readable);
+  const auto readable = readable_step(model, start_of(model));
+  const Outcome expected = after(model, *readable);
   EXPECT_GT(contacts_of(expected), 0);
   expect_near(expected, fast(model), 1e-11);
 }

@@ -137,6 +137,10 @@ TEST(StepChoice, TheFusedStepOfAWheelDoesWhatTheTableSays) {
   expect(plain, has::stiffness_damping);
   expect(test::cornering_model(mesh, {.slip_angle = 0.05, .camber = 0.02}), has::camber);
   Model model = plain;
+  model.rim = RimBody{};
+  model.rim->mass = model.rim->inertia = 1.0;
+  expect(model, has::loaded_rim);
+  model = plain;
   model.contact->law.restitution = 0.5;
   expect(model, has::restitution);
   model.contact->law.impact = contact::Impact::energy_safe;

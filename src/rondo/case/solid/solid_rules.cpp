@@ -153,7 +153,7 @@ void check_start(CaseValues& in, const Case& c) {
                        "no such key; initial.velocity sets it in motion");
 }
 
-/// Combinations that a rim moved by loads excludes: see integrators/solid/solid_rim.hpp.
+/// Combinations that a rim moved by loads excludes: see model/solid/solid_rim.hpp.
 void check_solid_rim(CaseValues& in, const Case& c) {
   if (!c.rim) return;
   if (c.rim->free_x && c.motion.slip_angle.largest() != 0.0)

@@ -68,6 +68,13 @@ void BatchIntegrator::set_rubber(RubberForces& forces, const State& start) {
 void BatchIntegrator::set_step(std::size_t i) noexcept {
   const long long n = step_ + static_cast<long long>(i) + 1;
   steps_[i] = step_context(model_, frame_step(model_.motion, n, model_.dt));
+  set_pressures(i);
+  for (const auto& tail : tails_)
+    if (tail->held()) steps_[i].held = tail->held();
+}
+
+/// Those at the time of the step, which has its frame.
+void BatchIntegrator::set_pressures(std::size_t i) noexcept {
   double* const pressures = pressures_.data() + i * n_pressures_;
   for (std::size_t l = 0; l < n_pressures_; ++l) {
     const Table& pressure =
@@ -75,8 +82,6 @@ void BatchIntegrator::set_step(std::size_t i) noexcept {
     pressures[l] = pressure.at(steps_[i].frame.time);
   }
   steps_[i].pressures = pressures;
-  for (const auto& tail : tails_)
-    if (tail->held()) steps_[i].held = tail->held();
 }
 
 void BatchIntegrator::look_for_corners(std::span<StepContext> steps) noexcept {
@@ -172,7 +177,7 @@ void BatchIntegrator::make_alone(const Batch& batch, Share share) noexcept {
 
 /// Frames of the steps to come if the rim went on as it does: where corners are looked for.
 void BatchIntegrator::expect_steps(std::size_t n) noexcept {
-  LoadedRim expected = *rim_;
+  SolidRim expected = *rim_;
   for (std::size_t i = 0; i < n; ++i) {
     expected.move();
     steps_[i].frame = expected.frame();
@@ -216,7 +221,9 @@ void BatchIntegrator::begin_step(long long before) noexcept {
   step_ = before;
   const char* held = steps_.front().held;
   rim_->move();
-  steps_.front() = wheel_context(model_, rim_->frame(), conj(rim_->turn_before()));
+  steps_.front() =
+      wheel_context(model_, rim_->frame(), conj(rim_->plane().turn_before()), rim_->gravity());
+  set_pressures(0);
   steps_.front().held = held;
   if (!corners_) return;
   parts_[n_parts_ - 1] = {};
@@ -239,7 +246,7 @@ void BatchIntegrator::end_step(StepReport& report) noexcept {
   report.step = step_ + 1;
   report.frame = rim_->frame();
   report.balance = ledger_.last();
-  report.rim = rim_->report();
+  report.rim = rim_->plane().report();
 }
 
 void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexcept {

@@ -83,6 +83,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
  private:
   void advance_batch(std::span<StepReport> reports) noexcept;
   void set_step(std::size_t i) noexcept;
+  void set_pressures(std::size_t i) noexcept;
   void look_for_corners(std::span<StepContext> steps) noexcept;
   template <class Work>
   void in_all_threads(Work&& work) noexcept;
@@ -105,7 +106,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   std::optional<RubberWork> rubber_work_;
   RubberForces* rubber_forces_ = nullptr;
   std::optional<CornerContact> corners_;
-  std::optional<LoadedRim> rim_;
+  std::optional<SolidRim> rim_;
   std::vector<std::unique_ptr<StepTail>> tails_;
   kernels::WheelWay way_{};  ///< factors of the step in hand, on a loaded rim
   bool within_ = false;      ///< corners are near, and make_steps() takes care of them

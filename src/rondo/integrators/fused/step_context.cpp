@@ -56,21 +56,25 @@ void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
   sums[kernels::sum_mean_force] += dot(change, forces.internal);
 }
 
-StepContext wheel_context(const Model& model, const FrameStep& f, Complex back) noexcept {
+StepContext wheel_context(const Model& model, const FrameStep& f, Complex back,
+                          Vec3 gravity) noexcept {
   RONDO_ASSERT(model.dt > 0.0 && model.rim, model.dt, model.rim.has_value());
   StepContext s;
   s.frame = f;
   const double dt = model.dt;
-  const Vec2 gravity = model.motion.gravity_at(f.time);
-  const Vec2 pull = dt * (conj(f.rotation) * gravity);
+  const Vec3 pull = dt * gravity;
   s.wheel = {.back_x = back.re,
              .back_y = back.im,
              .pull_x = pull.x,
              .pull_y = pull.y,
+             .pull_z = pull.z,
              .alpha_over_dt = model.mass_damping / dt,
              .beta_over_dt = model.stiffness_damping / dt};
-  s.heavy = gravity != Vec2{};
-  if (model.contact) s.contact.emplace(model, f);
+  s.heavy = gravity != Vec3{};
+  if (model.contact && model.solid)
+    s.solid_contact.emplace(model, f);
+  else if (model.contact)
+    s.contact.emplace(model, f);
   return s;
 }
 

@@ -36,7 +36,9 @@ struct StepContext {
 /// @param frame of the step, by the rim
 StepContext step_context(const Model& model, const FrameStep& frame) noexcept;
 /// Context of a step on a loaded rim; `back` + 1 turns the axes of the velocity before to its own.
-StepContext wheel_context(const Model& model, const FrameStep& frame, Complex back) noexcept;
+/// @param gravity in the co-rotating frame                                       [m/s²]
+StepContext wheel_context(const Model& model, const FrameStep& frame, Complex back,
+                          Vec3 gravity) noexcept;
 
 /// Raw sums: kernels::Sum, or kernels::WheelSum.
 using StepSums = std::array<double, kernels::most_sums>;

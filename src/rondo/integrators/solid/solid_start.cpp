@@ -7,7 +7,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/integrators/solid/solid_forces.hpp"
-#include "rondo/integrators/solid/solid_rim.hpp"
+#include "rondo/model/solid/solid_rim.hpp"
 
 namespace rondo::dynamics {
 namespace {

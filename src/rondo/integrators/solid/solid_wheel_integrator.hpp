@@ -5,7 +5,7 @@
 #include "rondo/integrators/general/wheel_step.hpp"
 #include "rondo/integrators/solid/solid_contacts.hpp"
 #include "rondo/integrators/solid/solid_forces.hpp"
-#include "rondo/integrators/solid/solid_rim.hpp"
+#include "rondo/model/solid/solid_rim.hpp"
 
 namespace rondo::dynamics {
 

@@ -63,7 +63,6 @@ constexpr std::uint32_t bit(StepKind kind) {
 constexpr std::uint32_t cyclic = bit(StepKind::cyclic), sparse = bit(StepKind::sparse),
                         bodies = bit(StepKind::bodies), general = bit(StepKind::general),
                         wheel = bit(StepKind::wheel), own_hati = bit(StepKind::hati),
-                        solid_held = bit(StepKind::solid_cyclic) | bit(StepKind::solid),
                         fused = cyclic | sparse | bodies, plane = fused | general | wheel,
                         any = ~0U;
 
@@ -72,7 +71,7 @@ constexpr std::array limits{
     Limit{has::three_dimensions, 0, plane | own_hati, "the step is for plane bodies"},
     Limit{has::mesh_file, 0, cyclic, "a mesh from a file is not known to have equal sectors"},
     Limit{has::assembled, 0, cyclic, "the stiffness is assembled, not that of one sector"},
-    Limit{has::loaded_rim, 0, bodies | general | solid_held,
+    Limit{has::loaded_rim, 0, bodies | general | bit(StepKind::solid),
           "the rim of this step follows its tables"},
     Limit{has::free_bodies, 0, cyclic | sparse,
           "a free body does not stay in the co-rotating frame of its sectors"},

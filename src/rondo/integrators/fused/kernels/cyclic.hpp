@@ -126,10 +126,6 @@ inline void product(const CyclicStrip& s, int pack, int n, Forces out) noexcept 
   }
 }
 
-inline Vectors first_of(int n, Vectors a, Vectors b) noexcept {
-  return {first_lanes(n, a.x, b.x), first_lanes(n, a.y, b.y)};
-}
-
 /// The row in hand; its constants in every lane.
 struct RowInHand {
   std::ptrdiff_t at;  ///< place of the row, see CyclicRow

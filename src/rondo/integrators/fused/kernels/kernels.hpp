@@ -67,14 +67,27 @@ enum RubberWheelSum {
   wheel_linear = n_wheel_sums,  ///< u·K u of the linear elements
   n_rubber_wheel_sums
 };
-inline constexpr int most_sums = n_rubber_wheel_sums;
+/// The sums of WheelSum, and more in three dimensions. There the sums of kinetic and strain energy
+/// and those with a⁻ + a⁺ are over three components; moments and what the rim's turn does to p are
+/// about the axle.
+enum SolidWheelSum {
+  wheel_force_z = n_rubber_wheel_sums,  ///< p along the axle, and so on
+  wheel_change_z,
+  wheel_mass_z,
+  wheel_momentum_z,
+  wheel_load,  ///< f·(a⁻ + a⁺), f of the pressures
+  wheel_rest,  ///< u × f of the forces of the state at rest
+  n_solid_wheel_sums
+};
+inline constexpr int most_sums = n_solid_wheel_sums;
 static_assert(int{n_sums} <= most_sums && int{n_rubber_sums} <= most_sums &&
-              int{n_wheel_sums} <= most_sums);
+              int{n_wheel_sums} <= most_sums && int{n_rubber_wheel_sums} <= most_sums);
 
 /// The factors that all nodes of a step on a loaded rim share, for forces and velocities.
 struct WheelFactors {
   double back_x, back_y;  ///< e^{-iδ⁻} - 1
   double pull_x, pull_y;  ///< Δt Rᵀ g                                      [m/s]
+  double pull_z;          ///< along the axle
   double alpha_over_dt;   ///< α/Δt                                         [1/s²]
   double beta_over_dt;    ///< β/Δt [-]
 };
@@ -83,6 +96,8 @@ struct WheelWay {
   double turn_x, turn_y;  ///< e^{-iδ⁺} - 1
   double way_x, way_y;    ///< Δt e^{-iδ⁺}                                            [s]
   double hub_x, hub_y;    ///< Rᵀ ċ⁺                                                  [m/s]
+  double hub_z;           ///< along the axle
+  double dt;              ///< Δt                                                     [s]
 };
 
 /// The factors that all nodes of a step share. Complex numbers as (x, y).

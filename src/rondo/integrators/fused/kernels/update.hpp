@@ -42,6 +42,10 @@ inline Vectors add_turned(Vectors z, Vectors a, Vectors b) noexcept {
   return {fma(z.x, a.x, fnma(z.y, a.y, b.x)), fma(z.x, a.y, fma(z.y, a.x, b.y))};
 }
 
+inline Vectors first_of(int n, Vectors a, Vectors b) noexcept {
+  return {first_lanes(n, a.x, b.x), first_lanes(n, a.y, b.y)};
+}
+
 /// StepFactors in every lane.
 struct Factors {
   explicit Factors(const StepFactors& f) noexcept

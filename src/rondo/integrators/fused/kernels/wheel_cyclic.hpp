@@ -8,42 +8,6 @@ namespace {
 
 using rondo::dynamics::kernels::n_wheel_sums;
 
-/// A vector of the co-rotating frame in the frames of a pack of sectors.
-inline Vectors to_sectors(const CyclicStrip& s, std::ptrdiff_t column, double x,
-                          double y) noexcept {
-  const Pack cosine = load(s.turn_x + column), sine = load(s.turn_y + column);
-  const Pack px = all(x), py = all(y);
-  return {fma(py, sine, px * cosine), fnma(px, sine, py * cosine)};
-}
-/// And back.
-inline Vectors from_sectors(const CyclicStrip& s, std::ptrdiff_t column, Vectors a) noexcept {
-  const Pack cosine = load(s.turn_x + column), sine = load(s.turn_y + column);
-  return {fnma(a.y, sine, a.x * cosine), fma(a.x, sine, a.y * cosine)};
-}
-
-/// Lanes of a pack that are the chunk's own.
-inline int own_lanes(const CyclicStrip& s, std::ptrdiff_t column) noexcept {
-  const std::ptrdiff_t left = s.columns - column;
-  return left < lanes ? static_cast<int>(left) : lanes;
-}
-
-inline Vectors own_of(int own, Vectors a) noexcept {
-  const Vectors zero = {all(0.0), all(0.0)};
-  return first_of(own, a, zero);
-}
-
-/// Sets nodes outside the chunk's own sectors to zero, so that they add nothing to the sums.
-inline WheelNodes own_nodes(int own, const WheelNodes& n) noexcept {
-  WheelNodes m = n;
-  m.u = own_of(own, n.u);
-  m.u_before = own_of(own, n.u_before);
-  m.a = own_of(own, n.a);
-  m.force = own_of(own, n.force);
-  m.before = own_of(own, n.before);
-  m.pull = own_of(own, n.pull);
-  return m;
-}
-
 /// Update and sums of one pack of a row.
 template <bool Heavy>
 inline void wheel_pack(const CyclicStrip& s, const WheelPacks& f, const CyclicRow& row,

@@ -6,8 +6,36 @@
 
 namespace {
 
+using rondo::dynamics::kernels::lanes;
 using rondo::dynamics::kernels::WheelFactors;
 using rondo::dynamics::kernels::WheelWay;
+
+/// A vector of the co-rotating frame in the frames of a pack of sectors.
+/// @tparam Strip CyclicStrip or SolidStrip
+template <class Strip>
+inline Vectors to_sectors(const Strip& s, std::ptrdiff_t column, double x, double y) noexcept {
+  const Pack cosine = load(s.turn_x + column), sine = load(s.turn_y + column);
+  const Pack px = all(x), py = all(y);
+  return {fma(py, sine, px * cosine), fnma(px, sine, py * cosine)};
+}
+/// And back.
+template <class Strip>
+inline Vectors from_sectors(const Strip& s, std::ptrdiff_t column, Vectors a) noexcept {
+  const Pack cosine = load(s.turn_x + column), sine = load(s.turn_y + column);
+  return {fnma(a.y, sine, a.x * cosine), fma(a.x, sine, a.y * cosine)};
+}
+
+/// Lanes of a pack that are the chunk's own.
+template <class Strip>
+inline int own_lanes(const Strip& s, std::ptrdiff_t column) noexcept {
+  const std::ptrdiff_t left = s.columns - column;
+  return left < lanes ? static_cast<int>(left) : lanes;
+}
+
+inline Vectors own_of(int own, Vectors a) noexcept {
+  const Vectors zero = {all(0.0), all(0.0)};
+  return first_of(own, a, zero);
+}
 
 /// s a + b
 inline Vectors add_times(Pack s, Vectors a, Vectors b) noexcept {
@@ -49,6 +77,18 @@ struct WheelNodes {
   Vectors u, u_before, a, force, before, reference, pull;
   Pack mass, dt_over_mass;
 };
+
+/// Sets nodes outside the chunk's own sectors to zero, so that they add nothing to the sums.
+inline WheelNodes own_nodes(int own, const WheelNodes& n) noexcept {
+  WheelNodes m = n;
+  m.u = own_of(own, n.u);
+  m.u_before = own_of(own, n.u_before);
+  m.a = own_of(own, n.a);
+  m.force = own_of(own, n.force);
+  m.before = own_of(own, n.before);
+  m.pull = own_of(own, n.pull);
+  return m;
+}
 
 /// a⁺ = a⁻ + Δt (g - q/m) with q = p + β e/Δt + α m d/Δt, and its part of the sums.
 template <bool Heavy>

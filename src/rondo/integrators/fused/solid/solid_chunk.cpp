@@ -4,6 +4,7 @@
 #include <array>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/model/solid/solid_rim.hpp"
 
 namespace rondo::dynamics {
 
@@ -43,10 +44,25 @@ Vec3 SolidChunk::initial_force(const State& state, int row, int column) const no
 
 void SolidChunk::load(const State& state) {
   load_fields(state, [&](int a, int c) { return initial_force(state, a, c); });
+  if (plan_.wheel) load_on_rim(state);
   show_to_others();
 }
 
-kernels::SolidStrip SolidChunk::strip_of(const Work& work, const SolidPlanStrip& p) noexcept {
+/// Sets the velocities that are carried, which are V in the axes of R_n; u_n stays.
+void SolidChunk::load_on_rim(const State& state) {
+  SolidRim rim(model_);
+  rim.restore(state.step, state.rim);
+  for_own_nodes([&](int a, int c, std::size_t node) {
+    const Complex axes = frame(a, c), to_node = conj(axes);
+    const Vec3 u = state.u.space()[node];
+    const Vec3 place = axes * arm(a, to_node * u);
+    put(a, field_next(), c, to_node * u);
+    put(a, field_v, c, to_node * rim.velocity_of(place, model_.dt * state.v_next.space()[node]));
+  });
+}
+
+/// Rows, fields and columns of a strip.
+kernels::SolidStrip SolidChunk::strip_of(const SolidPlanStrip& p, int now, int next) noexcept {
   kernels::SolidStrip s{};
   s.rows = plan_.rows.data() + p.first;
   s.n_rows = p.n_rows;
@@ -54,18 +70,24 @@ kernels::SolidStrip SolidChunk::strip_of(const Work& work, const SolidPlanStrip&
   s.entries = plan_.entries.data() + p.first_entry;
   s.n_entries = static_cast<int>(p.n_entries);
   s.blocks = plan_.numbers.data() + p.first_block;
-  s.now = field(0, work.now);
-  s.next = field(0, work.next);
+  s.now = field(0, now);
+  s.next = field(0, next);
   s.velocity = field(0, field_v);
   s.force = field(0, plan_.keeps_force ? field_force : field_v);  // else unused
   s.stride = plan_.stride;
   s.turn_x = turn_x();
   s.turn_y = turn_y();
+  s.columns = range_.columns;
+  return s;
+}
+
+kernels::SolidStrip SolidChunk::strip_of(const Work& work, const SolidPlanStrip& p) noexcept {
+  kernels::SolidStrip s = strip_of(p, work.now, work.next);
   s.first_pack = work.extent.first_pack;
   s.last_pack = work.extent.last_pack;
-  s.columns = range_.columns;
   s.keep_tail = plan_.cut.halo != Halo::wide;
   s.step = &work.factors;
+  s.wheel = &work.step->wheel;
   s.sums = sums_of(work.place);
   if (!plan_.loads.empty())
     for (int r = 0; r < p.n_rows; ++r) {
@@ -82,9 +104,12 @@ void SolidChunk::strip(const Work& work, int i) noexcept {
     for (int a = p.first; a < p.first + p.n_rows; ++a)
       if (plan_.contact_row[static_cast<std::size_t>(a)] >= 0) find_touching(work, a);
   const kernels::Terms& terms = work.step->terms;
-  table_.strip[!plan_.loads.empty()][terms.stiffness_damping][terms.unsteady](strip_of(work, p));
+  if (plan_.wheel)
+    table_.wheel->strip(strip_of(work, p));
+  else
+    table_.strip[!plan_.loads.empty()][terms.stiffness_damping][terms.unsteady](strip_of(work, p));
   for (const Touching& t : touching_) solve_node(work, t);
-  if (plan_.cut.halo == Halo::ring)
+  if (plan_.cut.halo == Halo::ring && !plan_.wheel)
     for (int a = p.first; a < p.first + p.n_rows; ++a) wrap(fields(), a, work.next);
 }
 
@@ -99,6 +124,18 @@ void SolidChunk::pass(std::span<const StepContext> steps, PartialStep* parts,
   }
   walk(std::span<const Work>(work.data(), n), [this](const Work& w, int i) { strip(w, i); });
   end_pass(n, parts, stride);
+}
+
+void SolidChunk::go_on(const kernels::WheelWay& way) noexcept {
+  RONDO_ASSERT(plan_.wheel && table_.wheel, plan_.wheel);
+  const int next = field_next();
+  for (const SolidPlanStrip& p : plan_.strips) {
+    kernels::SolidStrip s = strip_of(p, field_now(), next);
+    s.way = &way;
+    table_.wheel->way(s);
+  }
+  ++steps_;
+  show_to_others();
 }
 
 }  // namespace rondo::dynamics

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Fields of some sectors of a wheel in three dimensions, and their steps.
+/// @file  Fields of some sectors of a wheel in three dimensions, and their steps; on a loaded rim,
+/// too.
 #pragma once
 #include <span>
 
@@ -20,6 +21,9 @@ class SolidChunk : public RingChunk<3> {
   /// @pre the halo is taken
   void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride) noexcept;
 
+  /// On a loaded rim, after pass(): u_{n+2}, once the rim's own way is known; gives the edges.
+  void go_on(const kernels::WheelWay& way) noexcept;
+
  private:
   struct Work : StepInPass {
     kernels::SolidFactors factors;
@@ -31,12 +35,16 @@ class SolidChunk : public RingChunk<3> {
   }
   [[nodiscard]] Vec3 load_on(const Work& work, int row) const noexcept;
   [[nodiscard]] Vec3 initial_force(const State& state, int row, int column) const noexcept;
+  void load_on_rim(const State& state);
+  [[nodiscard]] kernels::SolidStrip strip_of(const SolidPlanStrip& p, int now, int next) noexcept;
   [[nodiscard]] kernels::SolidStrip strip_of(const Work& work, const SolidPlanStrip& p) noexcept;
   void strip(const Work& work, int i) noexcept;
   void find_touching(const Work& work, int row) noexcept;
   void solve_node(const Work& work, const Touching& t) noexcept;
   void correct_sums(const Work& work, const Touching& t, Vec3 free, Vec3 after,
                     StepSums& sums) const noexcept;
+  void correct_wheel_sums(const Work& work, const Touching& t, Vec3 free, Vec3 after,
+                          StepSums& sums) const noexcept;
 
   const SolidPlan& plan_;
   const kernels::SolidTable& table_;

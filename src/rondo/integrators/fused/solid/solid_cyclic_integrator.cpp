@@ -14,7 +14,11 @@ void SolidCyclicIntegrator::make_steps(const Batch& batch, Share share) noexcept
               });
 }
 
-void SolidCyclicIntegrator::go_on(const kernels::WheelWay&, long long, Share) noexcept {}
+void SolidCyclicIntegrator::go_on(const kernels::WheelWay& way, long long /*step*/,
+                                  Share share) noexcept {
+  const std::size_t n = chunks_.size();
+  for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].go_on(way);
+}
 
 CandidateMotion SolidCyclicIntegrator::motion_of(std::size_t) const noexcept {
   return {};

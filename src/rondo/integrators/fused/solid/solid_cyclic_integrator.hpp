@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Fast step of a wheel in three dimensions whose rim follows its tables: what
-/// cyclic_integrator.hpp is in the plane, with three components.
+/// @file  Fast step of a wheel in three dimensions: what cyclic_integrator.hpp is in the plane,
+/// with three components.
 #pragma once
 #include "rondo/integrators/fused/ring_integrator.hpp"
 #include "rondo/integrators/fused/solid/solid_chunk.hpp"
@@ -9,14 +9,14 @@ namespace rondo::dynamics {
 
 class SolidCyclicIntegrator final : public RingIntegrator<SolidChunk, SolidPlan> {
  public:
-  /// @pre model.solid, no loaded rim, the scheme "symplectic"
+  /// @pre model.solid, the scheme "symplectic"
   SolidCyclicIntegrator(const Model& model, const State& start, const kernels::Table& table,
                         const SolidTuning& tuning = {});
 
  private:
   void make_steps(const Batch& batch, Share share) noexcept override;
-  // These do nothing: three dimensions have no loaded rims and no corners between two nodes here.
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
+  // These do nothing: three dimensions have no corners between two nodes here.
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
   void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
 };

@@ -141,7 +141,9 @@ void add_rows(const Model& model, SolidPlan& plan) {
                          .y = arm.y,
                          .z = arm.z,
                          .turn_x = frame.re,
-                         .turn_y = frame.im});
+                         .turn_y = frame.im,
+                         .rest_x = 0.0,
+                         .rest_y = 0.0});
   }
 }
 
@@ -151,6 +153,11 @@ void add_loads(const Model& model, SolidPlan& plan) {
     std::vector<Vec3>& load = plan.loads.emplace_back();
     for (std::size_t a = 0; a < plan.rows.size(); ++a)
       load.push_back(conj(plan.stiffness.frame[a]) * pressure.force[at(plan.ordered.was[a])]);
+    if (!pressure.of_rest) continue;
+    for (std::size_t a = 0; a < plan.rows.size(); ++a) {
+      plan.rows[a].rest_x += load[a].x;
+      plan.rows[a].rest_y += load[a].y;
+    }
   }
 }
 
@@ -161,13 +168,14 @@ std::size_t n_solid_groups(int n_sectors) noexcept {
 }
 
 SolidPlan make_solid_plan(const Model& model, const SolidTuning& tuning) {
-  RONDO_DEMAND(model.solid.has_value() && !model.rim);
+  RONDO_DEMAND(model.solid.has_value());
   SolidPlan plan;
   plan.n_local = static_cast<int>(model.solid->sector.n_local());
   plan.n_sectors = model.solid->sector.n_sectors;
   plan.components = 3;
-  plan.keeps_force = model.stiffness_damping > 0.0;
-  plan.n_sums = kernels::n_sums;
+  plan.wheel = plan.stepwise = model.rim.has_value();
+  plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;
+  plan.n_sums = plan.wheel ? int{kernels::n_solid_wheel_sums} : int{kernels::n_sums};
   plan.group_columns = solid_group_columns;
   plan.ordered = order_sector(model);
   plan.nodes_per_sector = plan.ordered.sector.nodes_per_sector;

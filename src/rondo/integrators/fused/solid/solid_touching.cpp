@@ -58,25 +58,51 @@ void SolidChunk::correct_sums(const Work& work, const Touching& t, Vec3 free, Ve
   if (!plan_.loads.empty()) sums[kernels::sum_load] += dot(change, load_on(work, t.row));
 }
 
+/// Does the same on a loaded rim. The velocities of contacts are turned to the axes of R_{n+1}.
+void SolidChunk::correct_wheel_sums(const Work& work, const Touching& t, Vec3 free, Vec3 after,
+                                    StepSums& sums) const noexcept {
+  const double mass = plan_.rows[static_cast<std::size_t>(t.row)].mass;
+  const Vec3 change = after - free, force = at(t.row, field_force, t.column);
+  const Vec3 moved = at(t.row, work.now, t.column) - at(t.row, work.next, t.column);
+  const Vec3 momentum = mass * (frame(t.row, t.column) * change);
+  sums[kernels::wheel_force_after] += dot(force.plane(), change.plane());
+  sums[kernels::wheel_force_across] += cross(force.plane(), change.plane());
+  sums[kernels::wheel_mass_mean] += mass * dot(moved, change);
+  sums[kernels::wheel_change_mean] += dot(force - t.force, change);
+  sums[kernels::wheel_momentum_x] += momentum.x;
+  sums[kernels::wheel_momentum_y] += momentum.y;
+  sums[kernels::wheel_momentum_z] += momentum.z;
+  if (!plan_.loads.empty()) sums[kernels::wheel_load] += dot(change, load_on(work, t.row));
+}
+
 void SolidChunk::solve_node(const Work& work, const Touching& t) noexcept {
   const kernels::SolidRow& row = plan_.rows[static_cast<std::size_t>(t.row)];
   const std::size_t k = candidate_at(t.row, t.column);
   const Complex frame = this->frame(t.row, t.column);
   const Vec3 u = at(t.row, work.now, t.column), free = at(t.row, field_v, t.column);
-  const SolidContactNode node{
-      k, row.mass, model_.contact->tributary[k], frame * arm(t.row, u), frame * t.v, frame * free,
-      {}};
+  const Complex back{work.step->wheel.back_x, work.step->wheel.back_y};
+  const Vec3 before = plan_.wheel ? Vec3(t.v.plane() + back * t.v.plane(), t.v.z) : t.v;
+  const SolidContactNode node{k,
+                              row.mass,
+                              model_.contact->tributary[k],
+                              frame * arm(t.row, u),
+                              frame * before,
+                              frame * free,
+                              {}};
   std::array<ActiveContact, 2> contacts;
   const std::span active(contacts.data(), static_cast<std::size_t>(t.touches.count));
   ContactReport report;
   const Vec3 after =
       conj(frame) * solve_contacts(*work.step->solid_contact, node, t.touches, active, report);
   put(t.row, field_v, t.column, after);
-  put(t.row, work.next, t.column, u + model_.dt * after);
+  if (!plan_.wheel) put(t.row, work.next, t.column, u + model_.dt * after);
   // The neighbour reports the contacts of its own nodes.
   if (!is_own(t.column)) return;
   PartialStep& part = part_of(work.place, t.column);
-  correct_sums(work, t, free, after, part.sums);
+  if (plan_.wheel)
+    correct_wheel_sums(work, t, free, after, part.sums);
+  else
+    correct_sums(work, t, free, after, part.sums);
   part.contact.add(report);
   if (work.last) active_.insert(active_.end(), active.begin(), active.end());
 }

@@ -4,5 +4,5 @@
 #include "rondo/integrators/fused/kernels/solid/table.hpp"
 
 namespace rondo::dynamics::kernels {
-constinit const SolidTable baseline_solid = solid_table();
+constinit const SolidTable baseline_solid = solid_table(baseline_solid_wheel);
 }  // namespace rondo::dynamics::kernels

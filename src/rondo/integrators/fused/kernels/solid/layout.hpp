@@ -63,6 +63,7 @@ struct SolidRow {
   double dt_over_mass;    ///< Δt/m
   double x, y, z;         ///< X in its frame                                              [m]
   double turn_x, turn_y;  ///< its frame in that of its sector
+  double rest_x, rest_y;  ///< force of the state at rest, on a loaded rim                 [N]
 };
 
 /// The factors that all nodes of a step share.
@@ -83,8 +84,8 @@ struct SolidStrip {
   int n_entries;
   const double* blocks;  ///< blocks of the entries, one by one, each with those of its rows
   double* now;           ///< u_{n+1} of the chunk's first row, sector 0
-  double* next;          ///< u_{n+2}
-  double* velocity;      ///< v⁻, becomes v⁺
+  double* next;          ///< u_{n+2}; on a loaded rim u_n till SolidWheelTable::way
+  double* velocity;      ///< v⁻, becomes v⁺; on a loaded rim V in the axes of R_n, of R_{n+1}
   double* force;         ///< K u_n, becomes K u_{n+1}
   std::ptrdiff_t stride;
   const double* turn_x;  ///< cos φ of the chunk's sectors (padded like a field)
@@ -94,7 +95,10 @@ struct SolidStrip {
   int columns;           ///< sectors of the chunk's own: the sums are over these
   bool keep_tail;        ///< lanes past `columns` in the last own pack stay as they are
   const SolidFactors* step;
-  double* sums;                ///< (groups of solid_packs, n_sums, lanes): added to
+  const WheelFactors* wheel;   ///< instead of `step`, on a loaded rim
+  const WheelWay* way;         ///< read by SolidWheelTable::way alone
+  double* sums;                ///< (groups of solid_packs, n_sums or n_solid_wheel_sums, lanes):
+                               ///< added to
   double load[solid_rows][3];  ///< force on each node of a row, unused by kernels without [N]
 };
 
@@ -115,14 +119,23 @@ static_assert(std::is_trivial_v<SolidEntry> && std::is_trivial_v<SolidRow> &&
               std::is_trivial_v<SolidFactors> && std::is_trivial_v<SolidStrip> &&
               std::is_trivial_v<SolidHeight>);
 
+/// The loops of one instruction set on a loaded rim, where K u_n is always kept. In a file of their
+/// own, as WheelTable.
+struct SolidWheelTable {
+  void (*strip)(const SolidStrip&) noexcept;
+  void (*way)(const SolidStrip&) noexcept;
+};
+
 /// The loops of one instruction set for a wheel in three dimensions.
 struct SolidTable {
   /// [loaded][stiffness_damping][unsteady]
   void (*strip[2][2][2])(const SolidStrip&) noexcept;
   /// Columns that are low enough, ascending; returns how many.
   int (*low_columns)(const SolidHeight&, int* columns) noexcept;
+  const SolidWheelTable* wheel;
 };
 
+extern const SolidWheelTable avx512_solid_wheel, avx2_solid_wheel, baseline_solid_wheel;
 extern const SolidTable avx512_solid, avx2_solid, baseline_solid;
 
 }  // namespace rondo::dynamics::kernels

@@ -24,12 +24,14 @@ int solid_low_columns(const rondo::dynamics::kernels::SolidHeight& h, int* colum
   return found;
 }
 
-constexpr rondo::dynamics::kernels::SolidTable solid_table() noexcept {
+constexpr rondo::dynamics::kernels::SolidTable solid_table(
+    const rondo::dynamics::kernels::SolidWheelTable& wheel) noexcept {
   return {{{{solid_strip<false, false, false>, solid_strip<false, false, true>},
             {solid_strip<false, true, false>, solid_strip<false, true, true>}},
            {{solid_strip<true, false, false>, solid_strip<true, false, true>},
             {solid_strip<true, true, false>, solid_strip<true, true, true>}}},
-          solid_low_columns};
+          solid_low_columns,
+          &wheel};
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  A loaded rim (model/loaded_rim.hpp) under a wheel in three dimensions: it moves along t1
 /// and n and turns about the axle as loads and tables say; along t2 it follows the slip angle.
-/// Nothing else of it turns (docs/wheel3d.md).
+/// Nothing else of it turns (docs/wheel3d.md). Under a disk it is the rim of the plane, to the bit.
 #pragma once
 #include "rondo/core/vec3.hpp"
 #include "rondo/model/loaded_rim.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/solid/solid_rim.hpp"
+#include "rondo/model/solid/solid_rim.hpp"
 
 #include <cmath>
 
@@ -15,6 +15,7 @@ SolidRim::SolidRim(const Model& model) noexcept
 }
 
 double SolidRim::lateral_rate(double t) const noexcept {
+  if (!model_.solid) return 0.0;
   return model_.motion.advance(t, model_.dt).z / model_.dt;
 }
 
@@ -25,6 +26,7 @@ Vec3 SolidRim::on_ground(Vec3 force) const noexcept {
 
 /// The force on the rim in the directions in which it may move.
 RimForce SolidRim::in_plane(const RimForceOf<Vec3>& q) const noexcept {
+  if (model_.motion.camber == 0.0) return {q.force.plane(), q.moment};
   return {conj(rim_.frame().rotation) * on_ground(q.force).plane(), q.moment};
 }
 
@@ -37,6 +39,7 @@ void SolidRim::move() noexcept {
   lateral_before_ = lateral_;
   rim_.move();
   frame_ = rim_.frame();
+  if (!model_.solid) return;
   frame_.slip_angle = model_.motion.slip_angle.at(frame_.time);
   frame_.center.z = model_.motion.center(frame_.time).z;
   frame_.advance_before.z = model_.dt * lateral_before_;
