@@ -318,7 +318,7 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   r.penetration_max_m = contact_.penetration;
   for (const std::string& warning : warnings_) j["warnings"].push_back(warning);
   strain_->summarise({}, j, r);
-  if (fem::has_rubber(setup_.materials)) summarise_rubber(material_, balance_.exchanged, j, r);
+  if (has_internal_work(setup_)) summarise_rubber(material_, balance_.exchanged, j, r);
   summarise_dynamic({r, contact_, balance_.exchanged, problems_kept_}, j);
 }
 

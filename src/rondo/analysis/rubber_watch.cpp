@@ -13,7 +13,7 @@ namespace {
 
 constexpr JsonMember<double> rubber_rows[] = {
     {"integration_relative", "number", "",
-     "Only with rubber: magnitude of `integration` of `history.csv` at the last step; a warning "
+     "Only with rubber at finite strain or nonlinear cords: magnitude of `integration` of `history.csv` at the last step; a warning "
      "above 0.01",
      [](const double& relative) -> Json { return relative; }},
 };
@@ -39,12 +39,12 @@ void summarise_rubber(const dynamics::MaterialReport& last, double exchanged, Js
   const double relative = exchanged > 0.0 ? std::abs(last.integration()) / exchanged : 0.0;
   add_members(rubber_rows, relative, j);
   r.notes.push_back(
-      fmt::format("integration: work of the forces of rubber less energy stored and lost, {:.1e} "
+      fmt::format("integration: work of the internal forces less energy stored and lost, {:.1e} "
                   "of the energy exchanged",
                   relative));
   if (relative <= integration_bound) return;
   const std::string warning = fmt::format(
-      "work of the forces of rubber less energy stored and lost is {:.2g} of the energy exchanged, "
+      "work of the internal forces less energy stored and lost is {:.2g} of the energy exchanged, "
       "above {:.2g}: the steps are too coarse; half the step leaves a quarter of it",
       relative, integration_bound);
   j["warnings"].push_back(warning);

@@ -384,6 +384,9 @@ constexpr CaseKey keys[] = {
      "Spin at which the wheel is in equilibrium; its motion is linear about this state"},
     {"inflation.steps", "-", FIELD(inflation->steps), between(1, 1000), optional,
      "Number of steps in which pressure, spin and mounting grow together"},
+    {"inflation.nonlinear", "-", FIELD(inflation->nonlinear), one_from("none", "cords"), optional,
+     "What is nonlinear in the motion about the inflated state: \"none\", or \"cords\", for cords "
+     "and air that follow every displacement. Steps in time only"},
     {"inflation.mounting[].curve", "-", FIELD(inflation->mounting[k].curve), any, required,
      "Physical curve of `section.clamped` that is moved when the wheel is mounted on its rim"},
     {"inflation.mounting[].radial", "m", FIELD(inflation->mounting[k].radial), any, optional,

@@ -32,12 +32,16 @@ struct MountingCase {
 };
 
 /// Absent: the wheel is linear about its undeformed shape.
+/// What is nonlinear in the motion about the inflated state.
+enum class TyreMotion { linear, cords };
+
 struct InflationCase {
   std::string curve;           ///< that the air presses on; empty: no air
   double pressure = 0.0;       ///< [Pa]
   std::optional<double> spin;  ///< absent: motion.angular_velocity at t = 0           [rad/s]
   std::vector<MountingCase> mounting;
   int steps = 5;
+  TyreMotion nonlinear = TyreMotion::linear;
 };
 
 }  // namespace rondo::study

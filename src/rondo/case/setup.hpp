@@ -56,4 +56,9 @@ inline double initial_speed(const Setup& s, std::size_t node) {
   return s.model.solid ? norm(s.velocity.space()[node]) : norm(s.velocity.plane()[node]);
 }
 
+/// The work of the internal forces is a column of its own: they are not linear.
+inline bool has_internal_work(const Setup& s) noexcept {
+  return fem::has_rubber(s.materials) || (s.model.solid && s.model.solid->swept);
+}
+
 }  // namespace rondo::study

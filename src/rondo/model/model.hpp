@@ -13,6 +13,7 @@
 #include "rondo/contact/law.hpp"
 #include "rondo/core/field.hpp"
 #include "rondo/fem/assembly.hpp"
+#include "rondo/fem/finite/swept_forces.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/mesh/mesh.hpp"
 #include "rondo/model/motion.hpp"
@@ -96,6 +97,12 @@ struct SolidPressure {
                             ///< moment a rim that moves feels; `force` in N, `pressure` 1
 };
 
+/// Cords and air of a wheel whose forces are not linear about its state, and K of the rubber alone.
+struct SweptPart {
+  fem::finite::SweptFaces faces;
+  fem::SolidSector sector;  ///< [N/m]
+};
+
 /// Additional data of a wheel in three dimensions (docs/wheel3d.md). The fields of its state have
 /// three components; masses are in kg, forces in N, energies in J, tributaries in m². It is cyclic,
 /// clamped at its rim, and touches the ground: a profile in x and y is constant along t2.
@@ -103,6 +110,12 @@ struct SolidBody {
   std::vector<double> axial;  ///< (n) z of X                                 [m]
   fem::SolidSector sector;    ///< K of one sector                            [N/m]
   std::vector<SolidPressure> pressures;
+  std::optional<SweptPart> swept{};  ///< absent: all forces are K u
+
+  /// K of all that is linear.
+  [[nodiscard]] const fem::SolidSector& linear() const noexcept {
+    return swept ? swept->sector : sector;
+  }
 };
 
 class InternalForce;

@@ -34,7 +34,7 @@ History::History(const Case& c, const Setup& setup, const HistoryPlace& place)
       features_{.solid = setup.model.solid.has_value(),
                 .rim = setup.model.rim.has_value(),
                 .massless = has_massless_contact(setup.model),
-                .rubber = fem::has_rubber(setup.materials),
+                .rubber = has_internal_work(setup),
                 .hati = setup.model.subdomains.has_value()},
       at_(place) {
   RONDO_DEMAND(dt_ > 0.0 && std::isfinite(dt_) && interval_ >= 0.0, dt_, interval_);

@@ -170,7 +170,7 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const std::size_t force = carries_force ? n : 0;
   const std::size_t joined = parts ? 3 * model.subdomains->interface.size() : 0;
   const std::size_t rim_numbers = rim ? dynamics::LoadedRim::n_numbers : 0;
-  const std::size_t works = fem::has_rubber(setup.materials) ? 4 : 0;
+  const std::size_t works = has_internal_work(setup) ? 4 : 0;
   return s.branches.size() == branch_numbers(setup) && s.internal_work.size() == works &&
          fits(s.u, n, model) && fits(s.v, n, model) && fits(s.force, force, model) &&
          fits(s.u_before, rim ? n : 0, model) && s.gradient.size() == (general ? n : 0) &&

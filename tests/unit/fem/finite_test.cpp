@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "rondo/fem/finite/enclosed_volume.hpp"
 #include "rondo/fem/finite/rubber_hexahedron.hpp"
 #include "rondo/fem/finite/sector_energy.hpp"
+#include "rondo/fem/finite/swept_forces.hpp"
 #include "rondo/fem/finite/tangent_sector.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/mesh/solid/wheel.hpp"
@@ -277,6 +279,89 @@ SectorEnergy flat_ply(int n, const Cords& ply, int n_sectors) {
 
 /// The length of all cords is N asin(c r) / c between the radii, c = cos α_g / (r_g (1 + e)); N is
 /// their number around.
+/// What the steps take is what the equilibrium takes.
+TEST(SweptForces, OfAFaceAreThoseOfItsEnergy) {
+  const FaceCorners x = face();
+  FaceCorners y = x;
+  const auto off = at_random(4, 0.03, 3);
+  for (std::size_t i = 0; i < 4; ++i) y[i] += off[i];
+  const auto points = cord_points(x, {0.3, 0.4, 0.5, 0.6}, {1e-2, 1e-2, 2e-2, 2e-2});
+  const CordLaw law{500.0, 0.02, 0.3};
+  const auto expect_same = [](const Energy<4>& a, const FaceForce& b) {
+    EXPECT_NEAR(a.value, b.energy, 1e-13 * std::abs(a.value));
+    for (std::size_t i = 0; i < 4; ++i) {
+      const Eigen::Vector3d f = a.force.segment<3>(static_cast<Eigen::Index>(3 * i));
+      EXPECT_NEAR(norm(Vec3(f[0], f[1], f[2]) - b.force[i]), 0.0, 1e-13 * a.force.norm()) << i;
+    }
+  };
+  expect_same(cord_face(points, y, law), cord_force(points, y, law));
+  expect_same(cone_volume(y), cone_force(y));
+}
+
+/// About its state a wheel feels nothing; from there its forces are the gradient of the energy.
+TEST(SweptForces, OfAWheelAreTheGradientOfItsEnergy) {
+  constexpr int n_sectors = 5;
+  std::vector<Vec3> x;
+  for (int j = 0; j < n_sectors; ++j)
+    for (const Vec2 p : {Vec2{1.0, -0.3}, Vec2{1.2, 0.0}, Vec2{1.1, 0.4}})
+      x.push_back(rotation(2.0 * std::numbers::pi * j / n_sectors) * Vec3(p.x, 0.0, p.y));
+  SweptFaces faces;
+  faces.pressure = 30.0;
+  faces.liner = {{0, 1}, {1, 2}};
+  SweptCords cords{{100.0, 0.01, 0.5}, faces.liner, {}};
+  for (const auto& [a, b] : cords.lines) {
+    const auto at = [&](int node) { return x[static_cast<std::size_t>(node)]; };
+    cords.points.push_back(cord_points({at(a), at(b), at(b + 3), at(a + 3)}, {0.4, 0.4, 0.4, 0.4},
+                                       {0.1, 0.1, 0.1, 0.1}));
+  }
+  faces.cords.push_back(cords);
+  const SweptForces wheel(faces, x, n_sectors);
+  const std::vector<Vec3> rest(x.size());
+  std::vector<Vec3> force(x.size());
+  EXPECT_EQ(wheel.add_to(rest, force), 0.0);
+  for (Vec3& f : force) {
+    EXPECT_NEAR(norm(f), 0.0, 1e-13);
+    f = {};
+  }
+  const std::vector<Vec3> u = at_random(x.size(), 0.05, 7);
+  wheel.add_to(u, force);
+  double largest = 0.0;
+  for (const Vec3& f : force) largest = std::max(largest, norm(f));
+  EXPECT_GT(largest, 1.0);
+  constexpr double h = 1e-5;
+  for (std::size_t k = 0; k < x.size(); ++k)
+    for (int c = 0; c < 3; ++c) {
+      auto more = u, less = u, unused = rest;
+      component(more[k], c) += h;
+      component(less[k], c) -= h;
+      const double slope = (wheel.add_to(more, unused) - wheel.add_to(less, unused)) / (2.0 * h);
+      EXPECT_NEAR(slope, component(force[k], c), 1e-7 * largest) << k << " " << c;
+    }
+}
+
+/// A turn of the whole wheel stores nothing in cords, and turns all forces with it.
+TEST(SweptForces, ATurnOfTheWheelStoresNothing) {
+  std::vector<Vec3> x;
+  for (int j = 0; j < 4; ++j)
+    for (const double z : {-0.2, 0.3})
+      x.push_back(rotation(0.5 * std::numbers::pi * j) * Vec3(1.0, 0.0, z));
+  SweptFaces faces;
+  SweptCords cords{{100.0, 0.0, 1.0}, {{0, 1}}, {}};
+  cords.points.push_back(
+      cord_points({x[0], x[1], x[3], x[2]}, {0.4, 0.4, 0.4, 0.4}, {0.1, 0.1, 0.1, 0.1}));
+  faces.cords.push_back(cords);
+  const SweptForces wheel(faces, x, 4);
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(1.1, Eigen::Vector3d(1.0, 2.0, 0.5).normalized()).toRotationMatrix();
+  std::vector<Vec3> u, force(x.size());
+  for (const Vec3& p : x) {
+    const Eigen::Vector3d q = turn * Eigen::Vector3d(p.x, p.y, p.z);
+    u.push_back(Vec3(q[0], q[1], q[2]) - p);
+  }
+  EXPECT_NEAR(wheel.add_to(u, force), 0.0, 1e-12);
+  for (const Vec3& f : force) EXPECT_NEAR(norm(f), 0.0, 1e-12);
+}
+
 TEST(Cords, LiftedFromADrumKeepTheirNumber) {
   Cords ply;
   ply.law.stiffness = 1.0;

@@ -51,6 +51,9 @@ constexpr std::array rows{
     CaseFeature{has::rubber, "material.model",
                 "material.model = \"linear\" for the whole of the body",
                 [](const Case& c) { return has_rubber(c); }},
+    CaseFeature{
+        has::nonlinear_cords, "inflation.nonlinear", "inflation.nonlinear = \"none\"",
+        [](const Case& c) { return c.inflation && c.inflation->nonlinear != TyreMotion::linear; }},
     CaseFeature{has::own_material, "material.model", "material.model = \"linear\"",
                 [](const Case&) { return false; }},
     CaseFeature{has::implicit, "solver.implicit[0]", "no [[solver.implicit]]",

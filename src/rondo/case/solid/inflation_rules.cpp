@@ -133,6 +133,16 @@ void warn_of_spin(CaseValues& in, Case& c) {
   }
 }
 
+/// Steady rolling and modes are linear about the state.
+void check_nonlinear(CaseValues& in, const Case& c) {
+  if (c.inflation->nonlinear == TyreMotion::linear ||
+      c.analysis.kind != AnalysisKind::steady_rolling)
+    return;
+  in.refuse("inflation.nonlinear",
+            "\"cords\" is for steps in time, and steady rolling is linear about the inflated state",
+            "\"none\"; or analysis.kind = \"dynamic\", and a motion.speed");
+}
+
 }  // namespace
 
 void check_inflation_alone(CaseValues& in, Case& c) {
@@ -157,6 +167,7 @@ void check_inflation(CaseValues& in, Case& c) {
     in.fault("disk.tread", "with [inflation] all columns of the wheel are alike",
              "no [disk.tread]; grooves around the wheel in a [section]");
   check_stress(in, c);
+  if (in.good({"inflation.nonlinear", "analysis.kind"})) check_nonlinear(in, c);
   if (in.good({"inflation"})) warn_of_spin(in, c);
 }
 

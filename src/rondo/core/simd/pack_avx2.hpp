@@ -44,6 +44,9 @@ inline Pack fnma(Pack x, Pack y, Pack z) noexcept {
 inline Pack smaller(Pack x, Pack y) noexcept {
   return {_mm256_min_pd(x.a, y.a), _mm256_min_pd(x.b, y.b)};
 }
+inline Pack square_root(Pack x) noexcept {
+  return {_mm256_sqrt_pd(x.a), _mm256_sqrt_pd(x.b)};
+}
 inline Pack larger(Pack x, Pack y) noexcept {
   return {_mm256_max_pd(x.a, y.a), _mm256_max_pd(x.b, y.b)};
 }

@@ -43,6 +43,9 @@ inline Pack fnma(Pack a, Pack b, Pack c) noexcept {
 inline Pack smaller(Pack a, Pack b) noexcept {
   return {_mm512_min_pd(a.v, b.v)};
 }
+inline Pack square_root(Pack a) noexcept {
+  return {_mm512_sqrt_pd(a.v)};
+}
 inline Pack larger(Pack a, Pack b) noexcept {
   return {_mm512_max_pd(a.v, b.v)};
 }

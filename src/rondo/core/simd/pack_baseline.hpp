@@ -54,6 +54,10 @@ struct Pack {
   for (int i = 0; i < 4; ++i) a.v[i] = a.v[i] < b.v[i] ? a.v[i] : b.v[i];
   return a;
 }
+[[gnu::always_inline]] inline Pack square_root(Pack a) noexcept {
+  for (int i = 0; i < 4; ++i) a.v[i] = Two{__builtin_sqrt(a.v[i][0]), __builtin_sqrt(a.v[i][1])};
+  return a;
+}
 [[gnu::always_inline]] inline Pack larger(Pack a, Pack b) noexcept {
   for (int i = 0; i < 4; ++i) a.v[i] = a.v[i] > b.v[i] ? a.v[i] : b.v[i];
   return a;

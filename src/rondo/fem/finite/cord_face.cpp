@@ -59,4 +59,15 @@ Energy<4> cord_face(std::span<const CordPoint, 4> points, const FaceCorners& x,
   return out;
 }
 
+FaceForce cord_force(std::span<const CordPoint, 4> points, const FaceCorners& x,
+                     const CordLaw& law) noexcept {
+  FaceForce out;
+  for (const CordPoint& p : points) {
+    const CordState s = cord_state(p, x, law);
+    out.energy += 0.5 * p.length * s.force * (s.stretch - 1.0 + law.prestrain);
+    for (std::size_t a = 0; a < 4; ++a) out.force[a] += p.length * s.force * p.slope[a] * s.along;
+  }
+  return out;
+}
+
 }  // namespace rondo::fem::finite

@@ -45,4 +45,12 @@ struct CordState {
 [[nodiscard]] Energy<4> cord_face(std::span<const CordPoint, 4> points, const FaceCorners& x,
                                   const CordLaw& law) noexcept;
 
+/// Energy and forces of a face alone, for steps in time.
+struct FaceForce {
+  double energy = 0.0;          ///< [J]
+  std::array<Vec3, 4> force{};  ///< its gradient, by corners [N]
+};
+[[nodiscard]] FaceForce cord_force(std::span<const CordPoint, 4> points, const FaceCorners& x,
+                                   const CordLaw& law) noexcept;
+
 }  // namespace rondo::fem::finite

@@ -50,6 +50,21 @@ Energy<4> cone_volume(const std::array<Vec3, 4>& x) noexcept {
   return out;
 }
 
+/// With x = m + a ξ + c η + d ξη the volume is 4/3 m·(a × c): d drops out of the integral.
+FaceForce cone_force(const std::array<Vec3, 4>& x) noexcept {
+  const Vec3 middle = 0.25 * (x[0] + x[1] + x[2] + x[3]),
+             along = 0.25 * (x[1] + x[2] - x[0] - x[3]),
+             across = 0.25 * (x[2] + x[3] - x[0] - x[1]);
+  const Vec3 by_middle = cross(along, across), by_along = cross(across, middle),
+             by_across = cross(middle, along);
+  constexpr std::array<double, 4> xi{-1.0, 1.0, 1.0, -1.0}, eta{-1.0, -1.0, 1.0, 1.0};
+  FaceForce out;
+  out.energy = 4.0 / 3.0 * dot(middle, by_middle);
+  for (std::size_t a = 0; a < 4; ++a)
+    out.force[a] = (by_middle + xi[a] * by_along + eta[a] * by_across) / 3.0;
+  return out;
+}
+
 Energy<2> cap_volume(Vec3 here, Vec3 next, double outward) noexcept {
   // (z + z')(x y' - y x')/12, the mean height times the triangle's area over 3
   const double factor = outward / 12.0, height = here.z + next.z,

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "rondo/core/vec3.hpp"
+#include "rondo/fem/finite/cord_face.hpp"
 #include "rondo/fem/finite/energy.hpp"
 
 namespace rondo::fem::finite {
@@ -13,6 +14,9 @@ namespace rondo::fem::finite {
 /// ∂x/∂ξ × ∂x/∂η points away from the origin. Inside a closed surface, and at nodes around which
 /// all faces of a surface are there, its gradient is the exact force of a unit pressure.
 [[nodiscard]] Energy<4> cone_volume(const std::array<Vec3, 4>& x) noexcept;
+
+/// Volume and gradient of the cone alone, in m³ and m², for steps in time.
+[[nodiscard]] FaceForce cone_force(const std::array<Vec3, 4>& x) noexcept;
 
 /// The part of a flat cap between an edge around the wheel and the axle: the volume of the cone
 /// from the origin under the triangle whose third corner is on the axle at the height of the edge.

@@ -244,6 +244,15 @@ SectorState SectorEnergy::state(std::span<const Vec3> u, const SectorLoads& load
   return out;
 }
 
+SweptFaces SectorEnergy::faces(double pressure) const {
+  SweptFaces faces;
+  for (std::size_t l = 0; l < layers_.size(); ++l)
+    faces.cords.push_back({section_.cords[l].law, section_.cords[l].lines, layers_[l]});
+  faces.liner = section_.liner;
+  faces.pressure = pressure;
+  return faces;
+}
+
 std::vector<SectorEnergy::CordPlace> SectorEnergy::cords(std::size_t layer,
                                                          std::span<const Vec3> u) const {
   const std::vector<Vec3> x = places(u);

@@ -9,6 +9,7 @@
 
 #include "rondo/core/complex.hpp"
 #include "rondo/core/vec3.hpp"
+#include "rondo/fem/finite/swept_forces.hpp"
 #include "rondo/fem/finite/swept_section.hpp"
 #include "rondo/fem/solid/hexahedron.hpp"
 
@@ -50,6 +51,9 @@ class SectorEnergy {
   [[nodiscard]] std::span<const double> mass() const noexcept { return mass_; }
   /// @param u (n) displacements [m]
   [[nodiscard]] SectorState state(std::span<const Vec3> u, const SectorLoads& loads) const;
+
+  /// Cords, and the liner under a pressure.
+  [[nodiscard]] SweptFaces faces(double pressure) const;
 
   /// The cords at a point of a layer, deformed.
   struct CordPlace {

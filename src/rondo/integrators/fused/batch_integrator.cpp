@@ -59,9 +59,14 @@ BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::si
   rim_->restore(start.step, start.rim);
 }
 
+void BatchIntegrator::add_work(const State& start) {
+  rubber_work_.emplace(model_, start);
+  for (RubberEnergy& energy : rubber_energy_) energy.least = 1.0;  // unless elements say otherwise
+}
+
 void BatchIntegrator::set_rubber(RubberForces& forces, const State& start) {
   RONDO_DEMAND(model_.rubber && !rubber_forces_, model_.rubber.has_value());
-  rubber_work_.emplace(model_, start);
+  add_work(start);
   rubber_forces_ = &forces;
 }
 
@@ -287,7 +292,7 @@ SavedState BatchIntegrator::save() const {
   saved.step = step_;
   const Field zero(model_.n_nodes(), model_.components());
   saved.u = saved.v = zero;
-  if (model_.stiffness_damping > 0.0 || rim_) saved.force = zero;
+  if (keeps_force()) saved.force = zero;
   if (rim_) {
     saved.rim = rim_->save();
     saved.u_before = zero;
@@ -297,7 +302,7 @@ SavedState BatchIntegrator::save() const {
   for (const auto& tail : tails_) tail->save(saved);
   if (rubber_work_) {
     saved.internal_work = rubber_work_->save();
-    rubber_forces_->save(saved.branches);
+    if (rubber_forces_) rubber_forces_->save(saved.branches);
   }
   saved.ledger = ledger_.save();
   return saved;
@@ -306,11 +311,10 @@ SavedState BatchIntegrator::save() const {
 void BatchIntegrator::restore(const SavedState& saved) {
   RONDO_DEMAND(saved.u.size() == model_.n_nodes() && saved.v.size() == model_.n_nodes(),
                saved.u.size(), saved.v.size());
-  RONDO_DEMAND(
-      saved.u.components() == model_.components() &&
-          (!rim_ || saved.u_before.size() == model_.n_nodes()) &&
-          (!(rim_ || model_.stiffness_damping > 0.0) || saved.force.size() == model_.n_nodes()),
-      saved.u.components(), saved.u_before.size(), saved.force.size(), model_.n_nodes());
+  RONDO_DEMAND(saved.u.components() == model_.components() &&
+                   (!rim_ || saved.u_before.size() == model_.n_nodes()) &&
+                   (!keeps_force() || saved.force.size() == model_.n_nodes()),
+               saved.u.components(), saved.u_before.size(), saved.force.size(), model_.n_nodes());
   step_ = saved.step;
   if (rim_) rim_->restore(saved.step, saved.rim);
   restore_fields(saved);
@@ -318,7 +322,7 @@ void BatchIntegrator::restore(const SavedState& saved) {
   for (const auto& tail : tails_) tail->restore(saved);
   if (rubber_work_) {
     rubber_work_->restore(saved.internal_work);
-    rubber_forces_->restore(saved.branches);
+    if (rubber_forces_) rubber_forces_->restore(saved.branches);
   }
   ledger_.restore(saved.ledger);
 }

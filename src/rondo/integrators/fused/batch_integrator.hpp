@@ -67,6 +67,9 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   /// In the constructor, where the model has such tails; in the order in which they are worked.
   void add_tail(std::unique_ptr<StepTail> tail);
 
+  /// In the constructor, where forces are nonlinear: their work is kept. @param start as there
+  void add_work(const State& start);
+
   /// In the constructor, where the model has rubber. @param start as of the constructor
   void set_rubber(RubberForces& forces, const State& start);
 
@@ -95,6 +98,9 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   void expect_steps(std::size_t n) noexcept;
   void make_steps_on_rim(std::span<StepReport> reports, long long first, Share share) noexcept;
   void begin_step(long long before) noexcept;
+  [[nodiscard]] bool keeps_force() const noexcept {
+    return rim_ || model_.stiffness_damping > 0.0 || (model_.solid && model_.solid->swept);
+  }
   void end_step(StepReport& report) noexcept;
 
   const int threads_;

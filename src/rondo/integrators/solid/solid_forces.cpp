@@ -14,16 +14,63 @@ SolidForces::SolidForces(const Model& model, const State& start)
   RONDO_DEMAND(model.solid && model.solid->axial.size() == model.n_nodes());
   if (!model.solid->pressures.empty()) load_.resize(model.n_nodes());
   rest_ = rest_forces(model);
-  fem::apply(model.solid->sector, start.u, now_);
+  const std::span<const Vec3> u = start.u;
+  if (model.solid->swept) {
+    swept_.emplace(swept_forces(model));
+    u_ = to_vector(u);
+  }
+  const double stored = find(u);
+  work_.add(stored);
+  report_.internal_work = report_.stored_energy = stored;
+}
+
+double SolidForces::find(std::span<const Vec3> u) noexcept {
+  fem::apply(model_.solid->linear(), u, now_);
+  if (!swept_) return 0.0;
+  double linear = 0.0;
+  for_free_nodes(model_, [&](std::size_t k) { linear += 0.5 * dot(u[k], now_[k]); });
+  return linear + swept_->add_to(u, now_);
+}
+
+/// A_n + ½ f_n·Δu half a step before u_{n+1}; with ½ f_{n+1}·Δu more it is A_{n+1}.
+double SolidForces::add_work(std::span<const Vec3> u, double stored) noexcept {
+  double before = 0.0, now = 0.0;
+  for_free_nodes(model_, [&](std::size_t k) {
+    const Vec3 way = u[k] - u_[k];
+    before += dot(before_[k], way);
+    now += dot(now_[k], way);
+  });
+  const double half = work_.value() + 0.5 * before;
+  work_.add(0.5 * (before + now));
+  report_.internal_work = work_.value();
+  report_.stored_energy = stored;
+  u_.assign(u.begin(), u.end());
+  return half;
+}
+
+void SolidForces::save(SavedState& saved) const {
+  saved.force = now_;
+  if (swept_) saved.internal_work = {work_.sum(), work_.correction(), 0.0, 0.0};
+}
+
+void SolidForces::restore(const SavedState& saved) {
+  RONDO_DEMAND(saved.force.size() == model_.n_nodes(), saved.force.size(), model_.n_nodes());
+  now_ = to_vector(saved.force.space());
+  if (!swept_) return;
+  RONDO_DEMAND(saved.internal_work.size() == 4, saved.internal_work.size());
+  const Field& u = model_.rim ? saved.u_before : saved.u;
+  u_ = to_vector(u.space());
+  work_ = {saved.internal_work[0], saved.internal_work[1]};
 }
 
 double SolidForces::evaluate(std::span<const Vec3> u, std::span<const Vec3> /*v*/,
                              double time) noexcept {
   RONDO_ASSERT(u.size() == now_.size(), u.size(), now_.size());
   std::swap(now_, before_);
-  fem::apply(model_.solid->sector, u, now_);
+  const double stored = find(u);
   if (!load_.empty()) solid_pressure_forces(model_, time, load_);
   moment_ = rest_moment(rest_, u);
+  if (swept_) return add_work(u, stored);
   double energy = 0.0;
   for_free_nodes(model_, [&](std::size_t k) { energy += 0.5 * dot(u[k], before_[k]); });
   return energy;

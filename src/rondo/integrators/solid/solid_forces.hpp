@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Forces on the nodes of a wheel in three dimensions, in the co-rotating frame, as the
-/// readable steps take them: K u, stiffness damping, pressures (docs/wheel3d.md).
+/// readable steps take them: K u, or K of the rubber with nonlinear cords and air; stiffness
+/// damping, pressures (docs/wheel3d.md, docs/tyre.md).
 #pragma once
 #include <span>
 #include <vector>
 
-#include "rondo/core/contract.hpp"
+#include "rondo/core/sum.hpp"
 #include "rondo/core/vec3.hpp"
 #include "rondo/model/loaded_rim.hpp"
+#include "rondo/model/solid/swept_part.hpp"
 
 namespace rondo::dynamics {
 
@@ -16,7 +18,8 @@ class SolidForces {
   /// The model must outlive it. @param start u_0: evaluate() begins with u_1
   SolidForces(const Model& model, const State& start);
 
-  /// Forces at u_{n+1}. @return strain energy of the half step before, ½ u_{n+1}ᵀ K u_n   [J]
+  /// Forces at u_{n+1}. @return strain energy of the half step before, ½ u_{n+1}ᵀ K u_n; with
+  /// nonlinear cords the work A_n + ½ f_n·(u_{n+1} - u_n) that their forces took so far      [J]
   double evaluate(std::span<const Vec3> u, std::span<const Vec3> v, double time) noexcept;
   [[nodiscard]] Vec3 gradient(std::size_t k) const noexcept { return now_[k]; }
   /// β (K u_{n+1} - K u_n)/Δt.
@@ -32,19 +35,25 @@ class SolidForces {
   /// the axle cancel; along the axle nothing moves the rim but its tables. What is left is the
   /// moment of the forces of the state at rest.
   [[nodiscard]] RimForceOf<Vec3> on_rim() const noexcept { return {{}, moment_}; }
-  [[nodiscard]] MaterialReport material() const noexcept { return {}; }
+  [[nodiscard]] MaterialReport material() const noexcept { return report_; }
 
-  void save(SavedState& saved) const { saved.force = now_; }
-  void restore(const SavedState& saved) {
-    RONDO_DEMAND(saved.force.size() == model_.n_nodes(), saved.force.size(), model_.n_nodes());
-    now_ = to_vector(saved.force.space());
-  }
+  void save(SavedState& saved) const;
+  void restore(const SavedState& saved);
 
  private:
+  /// Forces at u. @return the energy that is stored there, with nonlinear cords; else 0 [J]
+  double find(std::span<const Vec3> u) noexcept;
+  double add_work(std::span<const Vec3> u, double stored) noexcept;
+
   const Model& model_;
   std::vector<Vec3> now_, before_, load_;
   std::vector<Vec3> rest_;  ///< (n) forces of the state at rest on the nodes; empty: none [N]
   double moment_ = 0.0;     ///< on the rim, at u_{n+1} [N m]
+  std::optional<fem::finite::SweptForces> swept_;
+  // With nonlinear cords:
+  std::vector<Vec3> u_;  ///< (n) u_n [m]
+  CompensatedSum work_;  ///< A, starting from what is stored at u_0 [J]
+  MaterialReport report_;
 };
 
 /// (n) Forces of the state at rest on the nodes, in the co-rotating frame; empty: none [N].

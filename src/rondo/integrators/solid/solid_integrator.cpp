@@ -62,6 +62,7 @@ void SolidIntegrator::make_step(StepEnergy& energy, StepReport& report) noexcept
   report.contact = contacts_.solve(SolidContactStep(model_, frame, update, axial_a), state_);
   add_works(energy.works);
   set_contact_works(report.contact, energy.works);
+  report.material = forces_.material();
 }
 
 void SolidIntegrator::save_fields(SavedState& saved) const {

@@ -16,7 +16,7 @@ Vec3 arm_of(const Model& model, const State& state, std::size_t k) noexcept {
   return Vec3(model.reference[k], model.solid->axial[k]) + state.u.space()[k];
 }
 
-/// K u_0 and β K v_0.
+/// The forces at u_0, and β K v_0.
 Vec3 elastic_force(const Model& model, const State& state, std::size_t k) noexcept {
   return state.force.space()[k] + model.stiffness_damping * state.force_before.space()[k];
 }
@@ -68,9 +68,12 @@ void start_solid(const Model& model, State& state) {
   RONDO_DEMAND(model.solid && state.u.size() == model.n_nodes() && state.u.components() == 3 &&
                    state.v_next.size() == model.n_nodes(),
                state.u.size(), state.u.components(), state.v_next.size(), model.n_nodes());
-  const fem::SolidSector& stiffness = model.solid->sector;
-  fem::apply(stiffness, state.u, state.force);
-  fem::apply(stiffness, state.v, state.force_before);
+  fem::apply(model.solid->linear(), state.u, state.force);
+  if (model.solid->swept) {
+    const std::span<const Vec3> u = state.u;
+    swept_forces(model).add_to(u, state.force.space());
+  }
+  fem::apply(model.solid->sector, state.v, state.force_before);
   std::vector<Vec3> load(model.n_nodes());
   solid_pressure_forces(model, 0.0, load);
   if (model.rim)

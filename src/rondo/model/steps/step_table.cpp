@@ -28,6 +28,7 @@ constexpr std::array names{
     FeatureName{has::rubber, "rubber at finite strain"},
     FeatureName{has::rubber | has::pressure | has::sharp_corners,
                 "pressure on rubber with sharp corners of the ground"},
+    FeatureName{has::nonlinear_cords, "cords and air of a tyre that are nonlinear"},
     FeatureName{has::own_material, "rubber in triangles, or a material of your own"},
     FeatureName{has::implicit, "implicit elements"},
     FeatureName{has::massless, "contact nodes without mass"},
@@ -261,6 +262,7 @@ Features features_of(const Model& m) noexcept {
   add(has_sharp_corners(m), has::sharp_corners);
   add(m.rubber.has_value(), has::rubber);
   add(m.internal_force && !m.rubber, has::own_material);
+  add(m.solid && m.solid->swept, has::nonlinear_cords);
   add(m.implicit.has_value(), has::implicit);
   add(has_massless_contact(m), has::massless);
   add(m.contact && m.contact->law.restitution > 0.0, has::restitution);

@@ -41,6 +41,7 @@ enum Feature : Features {
   hati = 1U << 19,               ///< sets other_scheme as well
   reduced = 1U << 20,            ///< a run of a reduced wheel
   friction_law = 1U << 21,       ///< friction that is no constant
+  nonlinear_cords = 1U << 22,    ///< SolidBody::swept
 };
 }  // namespace has
 

@@ -88,6 +88,7 @@ double make_solid_model(const Case& c, Setup& s) {
                body.sector.n_sectors, model.free.size());
   add_solid_pressures(c, s.mesh, body);
   add_pull(rest, body);
+  body.swept = std::move(rest.swept);
   s.inflation = std::move(rest.inflation);
   return rest.frequencies_below;
 }

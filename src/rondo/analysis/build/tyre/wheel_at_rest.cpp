@@ -36,6 +36,18 @@ std::vector<Vec3> pull_of(const mesh::Mesh& mesh, const WheelAtRest& rest, doubl
   return load;
 }
 
+/// Cords and air apart from the rubber, whose tangent stays. @param mesh not yet inflated
+dynamics::SweptPart swept_part(const InflatedWheel& wheel, const statics::Inflation& found,
+                               const mesh::Mesh& mesh) {
+  fem::finite::SweptSection rubber = wheel.energy().section();
+  rubber.cords.clear();
+  rubber.liner.clear();
+  rubber.caps.clear();
+  const fem::finite::SectorEnergy alone(std::move(rubber));
+  return {wheel.energy().faces(wheel.loads().sector.pressure),
+          fem::finite::tangent_sector(mesh, alone.state(found.u, {}))};
+}
+
 WheelAtRest inflated(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>& materials) {
   const InflatedWheel wheel(c, build_section(c, nullptr), materials);
   const statics::Inflation found = equilibrium_of(c, wheel);
@@ -44,6 +56,7 @@ WheelAtRest inflated(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>
     rest.mass.insert(rest.mass.end(), wheel.energy().mass().begin(), wheel.energy().mass().end());
   rest.sector = fem::finite::tangent_sector(mesh, found.state);
   rest.frequencies_below = row_bound(rest.sector, rest.mass);
+  if (c.inflation->nonlinear == TyreMotion::cords) rest.swept = swept_part(wheel, found, mesh);
   mesh::move_nodes(mesh, in_all_sectors(mesh, found.u),
                    c.section ? c.section->mesh.contact : "tread");
   rest.load = pull_of(mesh, rest, wheel.loads().sector.spin_squared);

@@ -7,6 +7,7 @@
 
 #include "rondo/analysis/build/tyre/inflated_wheel.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/model/model.hpp"
 
 namespace rondo::study {
 
@@ -17,7 +18,8 @@ struct WheelAtRest {
   /// (n_local) the rest of the forces on the nodes of a row, which K u does not have: -s0² m P x of
   /// an inflated wheel, balanced by its spin s0. In the frame of the sector. Empty: none [N]
   std::vector<Vec3> load;
-  std::optional<InflationFigures> inflation;  ///< none: undeformed
+  std::optional<InflationFigures> inflation;   ///< none: undeformed
+  std::optional<dynamics::SweptPart> swept{};  ///< none: the motion is linear
 };
 
 /// If the case has [inflation], this moves the mesh to its equilibrium and takes the laws of rubber

@@ -75,8 +75,9 @@ enum SolidWheelSum {
   wheel_change_z,
   wheel_mass_z,
   wheel_momentum_z,
-  wheel_load,  ///< f·(a⁻ + a⁺), f of the pressures
-  wheel_rest,  ///< u × f of the forces of the state at rest
+  wheel_load,           ///< f·(a⁻ + a⁺), f of the pressures
+  wheel_rest,           ///< u × f of the forces of the state at rest
+  wheel_force_moved_z,  ///< p·d along the axle
   n_solid_wheel_sums
 };
 inline constexpr int most_sums = n_solid_wheel_sums;

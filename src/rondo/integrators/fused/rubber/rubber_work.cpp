@@ -3,6 +3,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/model/internal_force.hpp"
+#include "rondo/model/solid/swept_part.hpp"
 
 namespace rondo::dynamics {
 
@@ -10,11 +11,18 @@ namespace rondo::dynamics {
 RubberWork::RubberWork(const Model& model, const State& start) : model_(model) {
   RONDO_DEMAND(start.force.size() == model.n_nodes() && start.v_next.size() == model.n_nodes(),
                start.force.size(), start.v_next.size(), model.n_nodes());
-  work_.add(make_internal_force(model, start.u, start.poses)->material().stored_energy);
-  if (model.rim) return;
-  for_free_nodes(model, [&](std::size_t k) {
-    work_.add(0.5 * model.dt * dot(start.force.plane()[k], start.v_next.plane()[k]));
-  });
+  if (model.solid)
+    begin<Vec3>(stored_energy(model, start.u), start);
+  else
+    begin<Vec2>(make_internal_force(model, start.u, start.poses)->material().stored_energy, start);
+}
+
+template <class Vec>
+void RubberWork::begin(double stored, const State& start) {
+  const std::span<const Vec> force = start.force, v = start.v_next;
+  work_.add(stored);
+  if (model_.rim) return;
+  for_free_nodes(model_, [&](std::size_t k) { work_.add(0.5 * model_.dt * dot(force[k], v[k])); });
 }
 
 /// @param linear u·K u of the linear elements [J/m]
@@ -37,7 +45,8 @@ MaterialReport RubberWork::add(const RubberEnergy& energy, WholeStep& step) noex
 MaterialReport RubberWork::add(const RubberEnergy& energy, const StepSums& sums,
                                StepEnergy& step) noexcept {
   step.strain = work_.value() + 0.5 * sums[kernels::wheel_strain];
-  work_.add(0.5 * (sums[kernels::wheel_strain] + sums[kernels::wheel_force_moved]));
+  work_.add(0.5 * (sums[kernels::wheel_strain] + sums[kernels::wheel_force_moved] +
+                   sums[kernels::wheel_force_moved_z]));
   return report(energy, sums[kernels::wheel_linear], work_.value());
 }
 

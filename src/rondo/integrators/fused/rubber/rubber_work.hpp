@@ -26,6 +26,8 @@ class RubberWork {
   void restore(std::span<const double> numbers);
 
  private:
+  template <class Vec>
+  void begin(double stored, const State& start);
   MaterialReport report(const RubberEnergy& energy, double linear, double work) noexcept;
 
   const Model& model_;

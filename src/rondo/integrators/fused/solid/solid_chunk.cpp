@@ -12,7 +12,8 @@ SolidChunk::SolidChunk(const Model& model, const SolidPlan& plan, const kernels:
                        const CyclicChunkRange& range)
     : RingChunk(model, plan, range, model.solid->sector.turn, kernels::solid_rows),
       plan_(plan),
-      table_(table) {}
+      table_(table),
+      faces_(plan.faces ? plan.faces->size(plan) : 0) {}
 
 /// Force of the pressures on a node of a row, in its frame.
 Vec3 SolidChunk::load_on(const Work& work, int row) const noexcept {
@@ -43,7 +44,10 @@ Vec3 SolidChunk::initial_force(const State& state, int row, int column) const no
 }
 
 void SolidChunk::load(const State& state) {
-  load_fields(state, [&](int a, int c) { return initial_force(state, a, c); });
+  load_fields(state, [&](int a, int c) {
+    if (!plan_.faces) return initial_force(state, a, c);
+    return conj(frame(a, c)) * state.force.space()[plan_.node(a, range_.first + c)];
+  });
   if (plan_.wheel) load_on_rim(state);
   show_to_others();
 }
@@ -88,6 +92,8 @@ kernels::SolidStrip SolidChunk::strip_of(const Work& work, const SolidPlanStrip&
   s.keep_tail = plan_.cut.halo != Halo::wide;
   s.step = &work.factors;
   s.wheel = &work.step->wheel;
+  s.swept = plan_.faces ? faces_.data() + RingLayout::lead : nullptr;
+  s.n_sums = plan_.n_sums;
   s.sums = sums_of(work.place);
   if (!plan_.loads.empty())
     for (int r = 0; r < p.n_rows; ++r) {
@@ -95,6 +101,20 @@ kernels::SolidStrip SolidChunk::strip_of(const Work& work, const SolidPlanStrip&
       s.load[r][0] = load.x, s.load[r][1] = load.y, s.load[r][2] = load.z;
     }
   return s;
+}
+
+/// The forces of cords and air at u_{n+1}.
+void SolidChunk::find_faces(int now) noexcept {
+  kernels::SolidFaces s = plan_.faces->faces();
+  s.energy_of_state = plan_.energy_of_state;
+  s.now = field(0, now);
+  s.force = faces_.data() + RingLayout::lead;
+  s.stride = plan_.stride;
+  s.columns = range_.columns;
+  s.n_sums = plan_.n_sums;
+  s.sum = plan_.wheel ? int{kernels::wheel_linear} : int{kernels::sum_linear};
+  s.sums = sums_of(0);
+  table_.faces(s);
 }
 
 void SolidChunk::strip(const Work& work, int i) noexcept {
@@ -107,7 +127,7 @@ void SolidChunk::strip(const Work& work, int i) noexcept {
   if (plan_.wheel)
     table_.wheel->strip(strip_of(work, p));
   else
-    table_.strip[!plan_.loads.empty()][terms.stiffness_damping][terms.unsteady](strip_of(work, p));
+    table_.strip[!plan_.loads.empty()][plan_.keeps_force][terms.unsteady](strip_of(work, p));
   for (const Touching& t : touching_) solve_node(work, t);
   if (plan_.cut.halo == Halo::ring && !plan_.wheel)
     for (int a = p.first; a < p.first + p.n_rows; ++a) wrap(fields(), a, work.next);
@@ -121,6 +141,10 @@ void SolidChunk::pass(std::span<const StepContext> steps, PartialStep* parts,
   for (std::size_t i = 0; i < n; ++i) {
     const AxialFactors& axial = steps[i].axial;
     work[i] = {step_in_pass(steps, i), {steps[i].factors, axial.pull, axial.inverse, axial.drag}};
+  }
+  if (plan_.faces) {
+    RONDO_ASSERT(n == 1, n);
+    find_faces(work[0].now);
   }
   walk(std::span<const Work>(work.data(), n), [this](const Work& w, int i) { strip(w, i); });
   end_pass(n, parts, stride);

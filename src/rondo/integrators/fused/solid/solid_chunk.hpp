@@ -36,6 +36,7 @@ class SolidChunk : public RingChunk<3> {
   [[nodiscard]] Vec3 load_on(const Work& work, int row) const noexcept;
   [[nodiscard]] Vec3 initial_force(const State& state, int row, int column) const noexcept;
   void load_on_rim(const State& state);
+  void find_faces(int now) noexcept;
   [[nodiscard]] kernels::SolidStrip strip_of(const SolidPlanStrip& p, int now, int next) noexcept;
   [[nodiscard]] kernels::SolidStrip strip_of(const Work& work, const SolidPlanStrip& p) noexcept;
   void strip(const Work& work, int i) noexcept;
@@ -48,6 +49,7 @@ class SolidChunk : public RingChunk<3> {
 
   const SolidPlan& plan_;
   const kernels::SolidTable& table_;
+  LargeArray faces_;  ///< forces of cords and air
 };
 
 }  // namespace rondo::dynamics

@@ -3,9 +3,21 @@
 
 namespace rondo::dynamics {
 
+namespace {
+
+SolidPlan plan_of(const Model& model, const kernels::SolidTable& table, const SolidTuning& tuning) {
+  SolidPlan plan = make_solid_plan(model, tuning);
+  set_state_of_faces(table, plan);
+  return plan;
+}
+
+}  // namespace
+
 SolidCyclicIntegrator::SolidCyclicIntegrator(const Model& model, const State& start,
                                              const kernels::Table& table, const SolidTuning& tuning)
-    : RingIntegrator(model, start, *table.solid, make_solid_plan(model, tuning)) {}
+    : RingIntegrator(model, start, *table.solid, plan_of(model, *table.solid, tuning)) {
+  if (model.solid->swept) add_work(start);
+}
 
 void SolidCyclicIntegrator::make_steps(const Batch& batch, Share share) noexcept {
   make_passes(batch, share,

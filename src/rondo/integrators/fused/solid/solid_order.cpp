@@ -40,7 +40,7 @@ std::vector<int> levels_from_side(const SolidSector& k, const std::vector<double
 
 /// Level by level, meridian by meridian: rows that follow each other couple with the same nodes.
 std::vector<int> order_from_side(const Model& model) {
-  const SolidSector& k = model.solid->sector;
+  const SolidSector& k = model.solid->linear();
   std::vector<double> z;
   std::vector<long> meridian;  // by its angle, in steps that round-off does not see
   for (std::size_t a = 0; a < k.n_local(); ++a) {
@@ -100,7 +100,7 @@ OrderedSector order_sector(const Model& model) {
   RONDO_DEMAND(model.solid && model.solid->axial.size() == model.n_nodes() &&
                    model.solid->sector.n_local() > 0,
                model.solid.has_value(), model.n_nodes());
-  const SolidSector& k = model.solid->sector;
+  const SolidSector& k = model.solid->linear();
   std::vector<int> order(k.n_local());
   std::iota(order.begin(), order.end(), 0);
   std::vector<int> from_side = order_from_side(model);

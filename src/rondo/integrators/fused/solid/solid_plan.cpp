@@ -123,8 +123,8 @@ void cut(const Model& model, const SolidTuning& tuning, SolidPlan& plan) {
       solid_steps_in_a_pass * static_cast<std::size_t>(rows_between_steps(plan) + 1) * row_bytes;
   const int columns =
       std::max(tuning.fewest_columns, static_cast<int>(tuning.pass_bytes / in_hand));
-  cut_ring(model.threads, solid_steps_in_a_pass,
-           {tuning.cache_bytes, columns, tuning.wide_halo_columns}, plan);
+  const int depth = model.solid->swept ? 1 : solid_steps_in_a_pass;  // faces need all rows of u
+  cut_ring(model.threads, depth, {tuning.cache_bytes, columns, tuning.wide_halo_columns}, plan);
 }
 
 void add_rows(const Model& model, SolidPlan& plan) {
@@ -143,7 +143,9 @@ void add_rows(const Model& model, SolidPlan& plan) {
                          .turn_x = frame.re,
                          .turn_y = frame.im,
                          .rest_x = 0.0,
-                         .rest_y = 0.0});
+                         .rest_y = 0.0,
+                         .swept = -1,
+                         .of_state = {}});
   }
 }
 
@@ -161,7 +163,26 @@ void add_loads(const Model& model, SolidPlan& plan) {
   }
 }
 
+void add_faces(const Model& model, SolidPlan& plan) {
+  plan.faces = make_faces_plan(model, plan);
+  for (std::size_t a = 0; a < plan.rows.size(); ++a) {
+    const int place = plan.faces->place[a];
+    plan.rows[a].swept = place < 0 ? -1 : 6 * place * plan.stride;
+  }
+}
+
 }  // namespace
+
+void set_state_of_faces(const kernels::SolidTable& table, SolidPlan& plan) {
+  if (!plan.faces) return;
+  const StateOfFaces state = state_of_faces(*plan.faces, plan, table);
+  plan.energy_of_state = state.energy;
+  for (std::size_t a = 0; a < plan.rows.size(); ++a) {
+    const Vec3 f = state.force[a];
+    double* const to = plan.rows[a].of_state;
+    to[0] = f.x, to[1] = f.y, to[2] = f.z;
+  }
+}
 
 std::size_t n_solid_groups(int n_sectors) noexcept {
   return n_groups_of(n_sectors, solid_group_columns);
@@ -173,9 +194,12 @@ SolidPlan make_solid_plan(const Model& model, const SolidTuning& tuning) {
   plan.n_local = static_cast<int>(model.solid->sector.n_local());
   plan.n_sectors = model.solid->sector.n_sectors;
   plan.components = 3;
+  const bool swept = model.solid->swept.has_value();
   plan.wheel = plan.stepwise = model.rim.has_value();
-  plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;
-  plan.n_sums = plan.wheel ? int{kernels::n_solid_wheel_sums} : int{kernels::n_sums};
+  plan.keeps_force = plan.wheel || swept || model.stiffness_damping > 0.0;
+  plan.n_sums = plan.wheel ? int{kernels::n_solid_wheel_sums}
+                : swept    ? int{kernels::n_rubber_sums}
+                           : int{kernels::n_sums};
   plan.group_columns = solid_group_columns;
   plan.ordered = order_sector(model);
   plan.nodes_per_sector = plan.ordered.sector.nodes_per_sector;
@@ -191,6 +215,7 @@ SolidPlan make_solid_plan(const Model& model, const SolidTuning& tuning) {
   set_stride(plan);
   add_rows(model, plan);
   write_strips(plan);
+  if (swept) add_faces(model, plan);
   find_candidates(model, plan);
   add_loads(model, plan);
   return plan;

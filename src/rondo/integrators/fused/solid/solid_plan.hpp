@@ -3,9 +3,11 @@
 /// over it: in strips of rows that couple with the same nodes (docs/performance.md).
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "rondo/integrators/fused/ring_layout.hpp"
+#include "rondo/integrators/fused/solid/solid_faces.hpp"
 #include "rondo/integrators/fused/solid/solid_order.hpp"
 #include "rondo/integrators/fused/solid/solid_rows.hpp"
 
@@ -29,6 +31,8 @@ struct SolidPlan : RingLayout {
   std::vector<SolidPlanStrip> strips;
   /// (pressures, n_local) force per pressure of each row, in its frame; nothing: no pressure  [m²]
   std::vector<std::vector<Vec3>> loads;
+  std::optional<SolidFacesPlan> faces;  ///< cords and air that are nonlinear
+  double energy_of_state = 0.0;         ///< of the faces of a sector [J]
 };
 
 /// More than of a disk: a wheel has more rows between two steps of a pass, and more bytes a node.
@@ -52,7 +56,10 @@ inline constexpr int solid_group_columns = kernels::solid_packs * kernels::lanes
 /// Groups round a ring: as many threads have work.
 std::size_t n_solid_groups(int n_sectors) noexcept;
 
-/// @pre model.solid is there.
+/// Forces and energy of the faces in the state, by the loops of the steps; none: nothing.
+void set_state_of_faces(const kernels::SolidTable& table, SolidPlan& plan);
+
+/// Without what set_state_of_faces() sets. @pre model.solid is there.
 SolidPlan make_solid_plan(const Model& model, const SolidTuning& tuning = {});
 
 }  // namespace rondo::dynamics

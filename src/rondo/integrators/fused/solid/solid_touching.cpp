@@ -55,6 +55,7 @@ void SolidChunk::correct_sums(const Work& work, const Touching& t, Vec3 free, Ve
   sums[kernels::sum_mass] += row.mass * dot(change, after + free + 2.0 * t.v);
   if (plan_.keeps_force)
     sums[kernels::sum_stiffness] += dot(change, at(t.row, field_force, t.column) - t.force);
+  if (plan_.faces) sums[kernels::sum_mean_force] += dot(change, at(t.row, field_force, t.column));
   if (!plan_.loads.empty()) sums[kernels::sum_load] += dot(change, load_on(work, t.row));
 }
 

@@ -4,5 +4,5 @@
 #include "rondo/integrators/fused/kernels/solid/table.hpp"
 
 namespace rondo::dynamics::kernels {
-constinit const SolidTable avx2_solid = solid_table(avx2_solid_wheel);
+constinit const SolidTable avx2_solid = solid_table(avx2_solid_wheel, avx2_solid_faces);
 }  // namespace rondo::dynamics::kernels

@@ -4,5 +4,5 @@
 #include "rondo/integrators/fused/kernels/solid/table.hpp"
 
 namespace rondo::dynamics::kernels {
-constinit const SolidTable avx512_solid = solid_table(avx512_solid_wheel);
+constinit const SolidTable avx512_solid = solid_table(avx512_solid_wheel, avx512_solid_faces);
 }  // namespace rondo::dynamics::kernels

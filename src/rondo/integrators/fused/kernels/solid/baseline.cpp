@@ -4,5 +4,5 @@
 #include "rondo/integrators/fused/kernels/solid/table.hpp"
 
 namespace rondo::dynamics::kernels {
-constinit const SolidTable baseline_solid = solid_table(baseline_solid_wheel);
+constinit const SolidTable baseline_solid = solid_table(baseline_solid_wheel, baseline_solid_faces);
 }  // namespace rondo::dynamics::kernels

@@ -64,6 +64,8 @@ struct SolidRow {
   double x, y, z;         ///< X in its frame                                              [m]
   double turn_x, turn_y;  ///< its frame in that of its sector
   double rest_x, rest_y;  ///< force of the state at rest, on a loaded rim                 [N]
+  std::ptrdiff_t swept;   ///< place of its forces in SolidFaces::force; -1: it has none
+  double of_state[3];     ///< force of cords and air in the state                         [N]
 };
 
 /// The factors that all nodes of a step share.
@@ -97,9 +99,45 @@ struct SolidStrip {
   const SolidFactors* step;
   const WheelFactors* wheel;   ///< instead of `step`, on a loaded rim
   const WheelWay* way;         ///< read by SolidWheelTable::way alone
-  double* sums;                ///< (groups of solid_packs, n_sums or n_solid_wheel_sums, lanes):
-                               ///< added to
+  const double* swept;         ///< forces of cords and air (SolidFaces::force); null: K u is all
+  int n_sums;                  ///< of a group
+  double* sums;                ///< (groups of solid_packs, n_sums, lanes): added to
   double load[solid_rows][3];  ///< force on each node of a row, unused by kernels without [N]
+};
+
+/// A corner of a face that is swept from a sector to the next. Places are numbers of doubles from
+/// the first u of the chunk, and from the first force, at the column of the face.
+struct SolidFaceCorner {
+  std::ptrdiff_t u;       ///< -1: it is held
+  std::ptrdiff_t force;   ///< corners of the next sector have forces of their own
+  double turn_x, turn_y;  ///< frame of its node in that of the face
+};
+/// A line of cords over the sectors of a chunk: y = rest + Σ slope u at its four points.
+struct SolidCordFace {
+  SolidFaceCorner corner[4];
+  double rest[4][3], slope[4][4];
+  double length[4];  ///< of the cords that a point stands for                             [m]
+  double stiffness, prestrain, compression;
+};
+/// A face of the liner: its middle and the tangents there, in the state                   [m]
+struct SolidAirFace {
+  SolidFaceCorner corner[4];
+  double middle[3], along[3], across[3];
+};
+/// All faces of a chunk.
+struct SolidFaces {
+  const SolidCordFace* cords;
+  const SolidAirFace* air;
+  int n_cords, n_air;
+  double pressure;         ///< [Pa]
+  double energy_of_state;  ///< of a sector [J]
+  const double* now;       ///< u_{n+1}
+  double* force;  ///< (rows with faces, of faces of this and of the last sector, 3, stride): set
+  int n_rows;     ///< with faces
+  std::ptrdiff_t stride;
+  int columns;  ///< the chunk's own; forces are found for the one before as well
+  int n_sums, sum;
+  double* sums;  ///< (groups, n_sums, lanes): twice the energy is added to number `sum`
 };
 
 /// Sectors of a row that may touch: place of the node along n <= limit.
@@ -115,6 +153,8 @@ struct SolidHeight {
   int first, last;                ///< columns looked at
 };
 
+static_assert(std::is_trivial_v<SolidCordFace> && std::is_trivial_v<SolidAirFace> &&
+              std::is_trivial_v<SolidFaces>);
 static_assert(std::is_trivial_v<SolidEntry> && std::is_trivial_v<SolidRow> &&
               std::is_trivial_v<SolidFactors> && std::is_trivial_v<SolidStrip> &&
               std::is_trivial_v<SolidHeight>);
@@ -133,7 +173,13 @@ struct SolidTable {
   /// Columns that are low enough, ascending; returns how many.
   int (*low_columns)(const SolidHeight&, int* columns) noexcept;
   const SolidWheelTable* wheel;
+  void (*faces)(const SolidFaces&) noexcept;
 };
+
+/// In files of their own.
+void avx512_solid_faces(const SolidFaces& faces) noexcept;
+void avx2_solid_faces(const SolidFaces& faces) noexcept;
+void baseline_solid_faces(const SolidFaces& faces) noexcept;
 
 extern const SolidWheelTable avx512_solid_wheel, avx2_solid_wheel, baseline_solid_wheel;
 extern const SolidTable avx512_solid, avx2_solid, baseline_solid;

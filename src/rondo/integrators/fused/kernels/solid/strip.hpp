@@ -7,7 +7,6 @@
 
 namespace {
 
-using rondo::dynamics::kernels::n_sums;
 using rondo::dynamics::kernels::SolidFactors;
 using rondo::dynamics::kernels::SolidRow;
 
@@ -156,6 +155,38 @@ template <bool Tail, bool Loaded, bool Beta, bool Unsteady>
   if constexpr (Beta) store_space(p, s.stride, n.force);
 }
 
+/// Adds the forces of cords and air on a pack of a row to those of K. @return u·(K u - 2 f), f
+/// those of the state: with twice the energy of the faces it is twice the stored one
+inline Pack add_swept(const SolidStrip& s, const SolidRow& row, std::ptrdiff_t column,
+                      double* force) noexcept {
+  const Space u = load_space(s.now + row.at + column, s.stride);
+  Space f = load_space(force, most_packs * lanes);
+  const Pack linear = add_dot(u, f, all(0.0));
+  if (row.swept < 0) return linear;
+  const double* const here = s.swept + row.swept + column;
+  const Space own = load_space(here, s.stride),
+              last = load_space(here + 3 * s.stride - 1, s.stride);
+  const Space state = {all(row.of_state[0]), all(row.of_state[1]), all(row.of_state[2])};
+  f = {f.r + (own.r + last.r - state.r), f.t + (own.t + last.t - state.t),
+       f.z + (own.z + last.z - state.z)};
+  store_space(force, most_packs * lanes, f);
+  return fnma(all(2.0), add_dot(u, state, all(0.0)), linear);
+}
+
+/// Σ a·f over the first `own` columns of a pack.
+inline Pack work_of(int own, const double* a, std::ptrdiff_t stride, const double* force) noexcept {
+  const Pack work = add_dot(load_space(a, stride), load_space(force, most_packs * lanes), all(0.0));
+  return own < lanes ? first_lanes(own, work, all(0.0)) : work;
+}
+
+/// Work takes the place of the strain energy of K.
+inline void add_work_sums(double* to, Pack before, Pack after, Pack linear, Sums& own) noexcept {
+  using namespace rondo::dynamics::kernels;
+  own.strain = before + after;
+  store(to + sum_force_before * lanes, load(to + sum_force_before * lanes) + before);
+  store(to + sum_linear * lanes, load(to + sum_linear * lanes) + linear);
+}
+
 /// All rows of the strip on the own packs [first, last), at most a group, and on those of the halo
 /// that are beside them: `left` and `right`, 0 or 1.
 template <bool Loaded, bool Beta, bool Unsteady>
@@ -169,11 +200,23 @@ inline void solid_group(const SolidStrip& s, int first, int last, int left, int 
     const std::ptrdiff_t at = s.rows[r].at;
     const auto f = [&](int pack) { return force.f[r][0] + place(pack - first + left); };
     Sums own = no_sums(), others = no_sums();
+    Pack before = all(0.0), after = all(0.0), linear = all(0.0);
+    for (int pack = first; s.swept && pack < last; ++pack) {
+      double* const p = force.f[r][0] + place(pack - first + left);
+      const int here = s.columns - pack * lanes;
+      const Pack more = add_swept(s, s.rows[r], place(pack), p);
+      linear = linear + (here < lanes ? first_lanes(here, more, all(0.0)) : more);
+      before = before + work_of(here, s.velocity + at + place(pack), s.stride, p);
+    }
     for (int pack = first; pack < last; ++pack)
       if ((pack + 1) * lanes > s.columns)
         space_pack<true, Loaded, Beta, Unsteady>(s, row, at, place(pack), f(pack), own);
       else
         space_pack<false, Loaded, Beta, Unsteady>(s, row, at, place(pack), f(pack), own);
+    for (int pack = first; s.swept && pack < last; ++pack)
+      after = after +
+              work_of(s.columns - pack * lanes, s.velocity + at + place(pack), s.stride, f(pack));
+    if (s.swept) add_work_sums(sums, before, after, linear, own);
     add_row_sums<Loaded>(sums, s.rows[r].mass, own);
     for (int pack = first - left; pack < last + right; pack += last - first + left)
       if (pack < first || pack >= last)
@@ -185,7 +228,7 @@ template <bool Loaded, bool Beta, bool Unsteady>
 void solid_strip(const SolidStrip& s) noexcept {
   const int own = (s.columns + lanes - 1) / lanes;
   double* sums = s.sums;
-  for (int pack = 0; pack < own; pack += solid_packs, sums += n_sums * lanes) {
+  for (int pack = 0; pack < own; pack += solid_packs, sums += s.n_sums * lanes) {
     const bool last = pack + solid_packs >= own;
     solid_group<Loaded, Beta, Unsteady>(s, pack, last ? own : pack + solid_packs,
                                         pack == 0 ? -s.first_pack : 0, last ? s.last_pack - own : 0,

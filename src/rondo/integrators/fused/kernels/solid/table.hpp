@@ -25,13 +25,15 @@ int solid_low_columns(const rondo::dynamics::kernels::SolidHeight& h, int* colum
 }
 
 constexpr rondo::dynamics::kernels::SolidTable solid_table(
-    const rondo::dynamics::kernels::SolidWheelTable& wheel) noexcept {
+    const rondo::dynamics::kernels::SolidWheelTable& wheel,
+    void (*faces)(const rondo::dynamics::kernels::SolidFaces&) noexcept) noexcept {
   return {{{{solid_strip<false, false, false>, solid_strip<false, false, true>},
             {solid_strip<false, true, false>, solid_strip<false, true, true>}},
            {{solid_strip<true, false, false>, solid_strip<true, false, true>},
             {solid_strip<true, true, false>, solid_strip<true, true, true>}}},
           solid_low_columns,
-          &wheel};
+          &wheel,
+          faces};
 }
 
 }  // namespace

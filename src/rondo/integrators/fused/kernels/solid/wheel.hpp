@@ -7,18 +7,16 @@
 
 namespace {
 
-using rondo::dynamics::kernels::n_solid_wheel_sums;
-
 /// What the axial components of a row add to their own sums, without factors.
 struct AxialSums {
-  Pack force, change, moved, twice_mean, load, rest;
+  Pack force, change, moved, twice_mean, load, rest, force_moved;
 };
 
 /// Sums of a row: resultants as vectors of its frame in sector 0.
 struct SolidWheelSums {
   WheelSums plane = no_wheel_sums();
   Resultants resultants = no_resultants();
-  AxialSums axial = {all(0.0), all(0.0), all(0.0), all(0.0), all(0.0), all(0.0)};
+  AxialSums axial = {all(0.0), all(0.0), all(0.0), all(0.0), all(0.0), all(0.0), all(0.0)};
 };
 
 inline Vectors plane_of(Space a) noexcept {
@@ -42,6 +40,7 @@ inline Pack axial_update(const WheelFactors& f, const SolidRow& row, const Space
   s.axial.force = s.axial.force + n.force.z;
   s.axial.change = s.axial.change + change;
   s.axial.moved = s.axial.moved + moved;
+  s.axial.force_moved = fma(n.force.z, moved, s.axial.force_moved);
   s.axial.twice_mean = s.axial.twice_mean + twice_mean;
   return after;
 }
@@ -120,21 +119,45 @@ inline void add_row(const SolidRow& row, const SolidWheelSums& s, double* sums) 
   add(wheel_momentum_z, mass * s.axial.twice_mean);
   add(wheel_load, s.axial.load);
   add(wheel_rest, s.axial.rest);
+  add(wheel_force_moved_z, s.axial.force_moved);
+}
+
+/// Adds the forces of cords and air, p_n·d, and what add_swept() gives.
+inline void add_work(const SolidStrip& s, int r, std::ptrdiff_t column, double* force, Pack& work,
+                     Pack& linear) noexcept {
+  const SolidRow& row = s.rows[r];
+  const std::ptrdiff_t at = row.at + column;
+  const Pack zero = all(0.0), more = add_swept(s, row, column, force);
+  const Space u = load_space(s.now + at, s.stride), last = load_space(s.next + at, s.stride);
+  const Space moved = {u.r - last.r, u.t - last.t, u.z - last.z};
+  const Pack way = add_dot(load_space(s.force + at, s.stride), moved, zero);
+  const int own = own_lanes(s, column);
+  work = work + (own < lanes ? first_lanes(own, way, zero) : way);
+  linear = linear + (own < lanes ? first_lanes(own, more, zero) : more);
 }
 
 void solid_wheel_strip(const SolidStrip& s) noexcept {
+  using rondo::dynamics::kernels::wheel_linear;
   const WheelPacks f(*s.wheel);
   const int own = (s.columns + lanes - 1) / lanes;
   double* sums = s.sums;
-  for (int first = 0; first < own; first += solid_packs, sums += n_solid_wheel_sums * lanes) {
+  for (int first = 0; first < own; first += solid_packs, sums += s.n_sums * lanes) {
     const int last = first + solid_packs < own ? first + solid_packs : own;
     SolidForces force;
     strip_product(s, first, last - first, force);
     for (int r = 0; r < s.n_rows; ++r) {
       SolidWheelSums row;
+      Pack work = all(0.0), linear = all(0.0);
+      for (int pack = first; s.swept && pack < last; ++pack)
+        add_work(s, r, static_cast<std::ptrdiff_t>(pack) * lanes,
+                 force.f[r][0] + static_cast<std::ptrdiff_t>(pack - first) * lanes, work, linear);
       for (int pack = first; pack < last; ++pack)
         solid_wheel_pack(s, f, r, static_cast<std::ptrdiff_t>(pack) * lanes,
                          force.f[r][0] + static_cast<std::ptrdiff_t>(pack - first) * lanes, row);
+      if (s.swept) {
+        row.plane.strain = work;
+        store(sums + wheel_linear * lanes, load(sums + wheel_linear * lanes) + linear);
+      }
       add_row(s.rows[r], row, sums);
     }
   }

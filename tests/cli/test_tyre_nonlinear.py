@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Steps in time of a tyre whose cords and air are nonlinear, against an independent calculation."""
+import unittest
+
+import h5py
+import numpy as np
+
+from program import history, run, summary
+from test_tyre import MESH as FULL
+from test_tyre import TYRE, TyreTest
+from test_tyre_rolling import MESH
+
+RADIUS = 0.31598535755  # m, inflated at rest: 90 sectors
+COARSE = TYRE.replace(str(FULL), str(MESH)).replace("sectors = 120", "sectors = 90")
+CORDS = ("--set", "inflation.nonlinear=cords")
+
+
+def standing(depth, end):
+    """Comes down within half of the time, without friction."""
+    return COARSE + f"""
+[damping]
+mass = 500.0
+stiffness = 1.5e-6
+[motion]
+angular_velocity = 0.0
+speed = 0.0
+height = [[0.0, {RADIUS + 1e-4!r}], [{0.5 * end!r}, {RADIUS - depth!r}]]
+[ground]
+profile = "flat"
+friction = 0.0
+[time]
+end = {end}
+[output]
+snapshots = 0
+history_interval = 1e-3
+"""
+
+
+class Nonlinear(TyreTest):
+    def stands(self, depth, *more):
+        """The load in the last fifth."""
+        end = 0.06
+        done = run("run", self.case(standing(depth, end)), "-o", self.results, "--overwrite", "--quiet", *more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess(summary(self.results)["energy_residual_relative"], 1e-12)
+        h = history(self.results)
+        return np.mean(h["force_y"][h["time_s"] > 0.8 * end])
+
+    def test_loads_of_an_independent_calculation(self):
+        """821.28 N at 5 mm, 1860.33 N at 10 mm, with the rubber linear."""
+        self.assertAlmostEqual(self.stands(5e-3, *CORDS) / 821.28, 1.0, delta=2e-3)
+        self.assertLess(summary(self.results)["integration_relative"], 1e-8)
+        self.assertAlmostEqual(self.stands(10e-3, *CORDS) / 1860.33, 1.0, delta=1e-3)
+
+    def test_it_stands_still_without_ground(self):
+        text = COARSE + """
+[motion]
+angular_velocity = 33.0
+speed = 10.3
+height = 0.5
+[time]
+end = 2e-3
+[output]
+snapshots = 2
+"""
+        done = run("run", self.case(text), "-o", self.results, "--quiet", *CORDS)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess(summary(self.results)["energy_residual_relative"], 1e-12)
+        with h5py.File(self.results / "results.h5") as file:
+            self.assertLess(np.abs(file["snapshots/displacement"][:]).max(), 1e-15)
+
+    def test_the_error_of_integration_is_of_second_order(self):
+        """As the tyre strikes the ground at 2 m/s, with half the step."""
+        text = standing(4e-3, 4e-3)
+        found = []
+        for step in (4e-6, 2e-6):
+            done = run("run", self.case(text), "-o", self.results, "--overwrite", "--quiet", "--set",
+                       f"time.step={step}", *CORDS)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            h = history(self.results)
+            found.append(abs(h["integration"]).max())
+        self.assertGreater(found[0], 1e-10)
+        self.assertAlmostEqual(found[0] / found[1], 4.0, delta=0.8)
+
+    def test_it_is_for_steps_in_time(self):
+        text = COARSE + """
+[motion]
+angular_velocity = 33.0
+height = 0.31
+[ground]
+profile = "flat"
+friction = 0.9
+[analysis]
+kind = "steady-rolling"
+torque = 0.0
+"""
+        done = run("check", self.case(text), *CORDS)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("steady rolling is linear about the inflated state", done.stderr)
+        self.assertIn("inflation.nonlinear", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
