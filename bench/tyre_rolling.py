@@ -43,10 +43,10 @@ def explicit(program, moving, folder, sectors, degrees, damping, end):
     return sum(last) / len(last)
 
 
-def run(program, text, folder, words):
+def run(program, text, folder, words, command="run"):
     path = folder / "case.toml"
     path.write_text(text)
-    done = subprocess.run([program, "run", path, "-o", folder / "run", "--overwrite", *words], capture_output=True,
+    done = subprocess.run([program, command, path, "-o", folder / "run", "--overwrite", *words], capture_output=True,
                           text=True)
     return done.returncode == 0
 
