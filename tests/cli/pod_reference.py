@@ -8,7 +8,7 @@ import numpy as np
 
 
 def rectified(values, h5, angles, rows):
-    """Fields (t, n, 2) moved to the fixed frame: real transforms over the sectors, by numpy."""
+    """Fields (t, n, 2 or 3) moved to the fixed frame: real transforms over the sectors, by numpy."""
     sector, ring = h5["/mesh/sector"][:][rows], h5["/mesh/sector_node"][:][rows]
     n = sector.max() + 1
     out = np.empty_like(values)
@@ -27,6 +27,8 @@ def rectified(values, h5, angles, rows):
         moved = np.fft.irfft(np.fft.rfft(polar, axis=2) * turn, n=n, axis=2)
         out[:, at, 0] = c * moved[0] - s * moved[1]
         out[:, at, 1] = s * moved[0] + c * moved[1]
+        if values.shape[2] == 3:  # along the axle
+            out[:, at, 2] = np.fft.irfft(np.fft.rfft(values[:, at, 2], axis=1) * turn, n=n, axis=1)
     return out
 
 
