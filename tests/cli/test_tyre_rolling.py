@@ -51,6 +51,19 @@ class Samples(TyreTest):
             self.assertAlmostEqual(steady["force_lateral"] / force, 1.0, delta=5.5e-3, msg=samples)
             self.assertAlmostEqual(steady["force_y"] / 2171.1, 1.0, delta=1e-2)
 
+    def test_many_samples_at_a_load(self):
+        """Of 90 sectors with 10 samples, where Newton's method cycled until it was given up."""
+        done = run("run", self.case(STEADY.replace("height = 0.299968\n", "")), "-o", self.results,
+                   *(word for setting in (
+                       "section.sectors=90", f"motion.slip_angle={DEGREE!r}", "analysis.load=4000.0",
+                       "analysis.torque=0.0", "analysis.slip=bdf2", "analysis.samples_per_sector=10",
+                       "analysis.estimate_slip_error=false")
+                     for word in ("--set", setting)))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        steady = summary(self.results)["steady"]
+        self.assertAlmostEqual(steady["force_y"], 4000.0, delta=1e-4)
+        self.assertAlmostEqual(steady["force_lateral"], -1450.8, delta=0.5)  # of 12 samples -1452.4
+
     def test_the_error_of_the_slip_is_kept_and_warned_of(self):
         few, said = self.steady(60, "bdf2", 4)
         self.assertRegex(said, r"samples_per_sector = 4: the force along the ground differs by 8\.\d+ %")

@@ -95,13 +95,13 @@ template <int D>
 std::string SteadyState<D>::not_solved() const {
   const AnalysisCase& a = case_.analysis;
   const statics::RollingEffort& effort = solution_.effort;
-  const bool too_many = D == 3 && effort.work >= statics::most_rolling_work;
+  const bool too_many = D == 3 && effort.spent();
   std::string found = "the iteration over sets of contacts did not end", remedy;
   if (too_many)
     found = fmt::format(
         "analysis.samples_per_sector = {} makes {} pairs of a node and a sample near the ground, "
-        "and {:.2g} operations (limit {:.0e}) did not solve them",
-        a.samples_per_sector, window_.pairs().size(), effort.work, statics::most_rolling_work);
+        "and {:.2g} operations (limit {:.2g}) did not solve them",
+        a.samples_per_sector, window_.pairs().size(), effort.work, effort.most);
   else if (std::isfinite(solution_.residual))
     found = fmt::format("residual {:.3g}, bound {:.0e}", solution_.residual,
                         statics::rolling_residual_bound);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rondo/core/process_wide.hpp"
+#include "rondo/statics/steady/rolling_law.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -49,6 +50,21 @@ bool brings(const RollingDrive& drive, const RollingSolution& s) {
          near(drive.torque, s.forces.torque, s.height);
 }
 
+/// In space, where friction makes the systems three times as large: what touches without friction
+/// is most of what touches with it. @return whether the window grew by it
+template <int D>
+bool grows_without_friction(RollingWindow<D>& window, const RollingDrive& drive,
+                            RollingState& state) {
+  if (D == 2 || state.solved()) return false;
+  RollingState smooth = state;
+  begin(window.problem(), drive, smooth);
+  state.effort = smooth.effort;
+  if (!smooth.solved()) return false;
+  state.point.force = smooth.point.force;
+  if (drive.load) state.point.height = smooth.point.height;
+  return window.include_touching(smooth.point.height, smooth.point.force);
+}
+
 /// Nothing of the height that was tried is left, or nothing was found.
 template <int D>
 RollingSolution nothing(const RollingProblem<D>& problem, const RollingPoint& point,
@@ -81,6 +97,7 @@ RollingSolution solve_rolling(RollingWindow<D>& window, const RollingDrive& driv
     s.end = problem.pairs.empty() ? RollingEnd::no_contact : RollingEnd::not_solved;
     if (problem.pairs.empty()) break;
     state.point.force.conservativeResizeLike(Eigen::VectorXd::Zero(problem.size()));
+    if (grows_without_friction(window, drive, state)) continue;
     solve_rolling(problem, drive, state);
     s.effort = state.effort;
     if (!state.touches) {

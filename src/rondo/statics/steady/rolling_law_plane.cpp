@@ -54,7 +54,7 @@ void pivot(const PlaneProblem& problem, const RollingDrive& drive, RollingState&
   const Index m = problem.n_pairs();
   LcpSolution z;
   const double a_pivot = 20.0 * std::pow(static_cast<double>(3 * m), 2);
-  const double affordable = (most_rolling_work - s.effort.work) / a_pivot;
+  const double affordable = (s.effort.most - s.effort.work) / a_pivot;
   if (affordable < 1.0) return;
   const auto most = static_cast<int>(std::min(30.0 * static_cast<double>(m) + 100.0, affordable));
   const LemkeReport end = solve_lemke(complementary(problem, drive), most, z);
@@ -131,7 +131,7 @@ template <>
 void newton(const RollingProblem<2>& problem, const RollingDrive& drive, RollingState& s) {
   std::set<std::vector<int>> seen;
   s.touches = true;
-  for (int n = 0; n < most_newton_steps && s.effort.work < most_rolling_work; ++n) {
+  for (int n = 0; n < most_newton_steps && !s.effort.spent(); ++n) {
     ++s.effort.newton_steps;
     s.touches = !all_open(s.statuses);
     if (!s.touches) return;

@@ -28,7 +28,7 @@ void iterate(const SpaceProblem& problem, const RollingDrive& drive, RollingStat
   RollingStatuses statuses = s.statuses;
   s.residual = std::numeric_limits<double>::infinity();
   int without_gain = 0;
-  for (int n = 0; n < most_newton_steps && s.effort.work < most_rolling_work; ++n) {
+  for (int n = 0; n < most_newton_steps && !s.effort.spent(); ++n) {
     ++s.effort.newton_steps;
     s.touches = !all_open(statuses);
     if (!s.touches) return;
@@ -155,7 +155,7 @@ void rescue(const RollingProblem<3>& problem, const RollingDrive& drive, Rolling
     begin(problem, drive, from);
   }
   for (int n = 0; n < newton_rounds && s.touches && !s.solved(); ++n) {
-    if (s.effort.work >= most_rolling_work) break;
+    if (s.effort.spent()) break;
     from.effort = s.effort;
     sweep(problem, drive, from);
     s = from;

@@ -15,15 +15,17 @@ namespace rondo::statics {
 /// Bound of the relative residual of a solution, that of every solver's law.
 inline constexpr double rolling_residual_bound = 1e-9;
 
-/// Where this much work brought no solution there is none to wait for: half a minute.
-inline constexpr double most_rolling_work = 4e11;
-
 /// What was done for a solution.
 struct RollingEffort {
   int newton_steps = 0;
   int pivots = 0;     ///< in the plane
   int sweeps = 0;     ///< in space
   double work = 0.0;  ///< of these, roughly, in floating-point operations
+  /// Where this much work brought no solution there is none to wait for: half a minute, in space
+  /// more for many pairs.
+  double most = 4e11;
+
+  [[nodiscard]] bool spent() const noexcept { return work >= most; }
 };
 
 struct RollingState {
@@ -46,7 +48,8 @@ template <int D>
                                       double slip_angle, double friction);
 
 /// From the height, the speed and the forces of the state on, in the plane from its statuses if it
-/// has some.
+/// has some. In space the forces of a state that is solved, of fewer pairs or at another height,
+/// are near the solution.
 template <int D>
 void solve_rolling(const RollingProblem<D>& problem, const RollingDrive& drive,
                    RollingState& state);

@@ -16,6 +16,11 @@ using contact::Status;
 using Eigen::Index;
 using Eigen::VectorXd;
 
+/// What slides where it should stick has a way against its force. It sticks next where that way is
+/// small beside the force, and slides backwards else, from where Newton's method may cycle: in
+/// space ways count less than one over their own compliances makes them.
+constexpr double weight_of_ways = 0.4;
+
 }  // namespace
 
 template <int D>
@@ -24,7 +29,7 @@ RollingStiffness stiffness_of(const RollingProblem<D>& problem) {
   if constexpr (D == 2) return {1.0 / own.mean(), 1.0 / own.mean()};
   const Index n = problem.n_pairs();
   const double normal = own(Eigen::seqN(0, n, D)).mean();
-  return {1.0 / normal, (D - 1) / (own.sum() / static_cast<double>(n) - normal)};
+  return {1.0 / normal, weight_of_ways * (D - 1) / (own.sum() / static_cast<double>(n) - normal)};
 }
 
 template <int D>

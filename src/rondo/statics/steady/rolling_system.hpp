@@ -26,8 +26,8 @@ struct RollingStatus {
 };
 using RollingStatuses = std::vector<RollingStatus>;
 
-/// One over the mean compliances of pairs along n and across it [N/m]. In the plane both are one
-/// over the mean of all.
+/// One over the mean compliances of pairs along n and, times 0.4, across it [N/m]. In the plane
+/// both are one over the mean of all.
 struct RollingStiffness {
   double normal = 1.0, across = 1.0;
 };
