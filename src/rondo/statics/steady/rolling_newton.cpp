@@ -161,18 +161,17 @@ double rolling_residual(const RollingProblem<D>& problem, const RollingPoint& po
   return residual_of(problem, point, gaps_and_ways(problem, point, slip_angle), friction);
 }
 
-/// In the plane what the whole search did not solve is left as Newton's method left it: where all
-/// slides, its statuses tell.
+/// In space less friction leads to load, traction and torque at once, and fixed heights and speeds
+/// are the last resort. In the plane what the whole search did not solve is left as Newton's method
+/// left it: where all slides, its statuses tell.
 template <int D>
 void solve_rolling(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& s) {
   const RollingPoint first = s.point;
   s.effort.most = most_work(problem, s.effort);
   attempt(problem, drive, s);
   if (!s.touches || s.solved()) return;
-  if (drive.is_fixed()) {
-    rescue(problem, drive, s);
-    return;
-  }
+  if (D == 3 || drive.is_fixed()) rescue(problem, drive, s);
+  if (drive.is_fixed() || s.solved()) return;
   RollingState found = without_forces(problem, drive, first);
   found.effort = s.effort;
   find_drive(problem, drive, found);
