@@ -52,6 +52,7 @@ NOT_RUN = [
     ("docs/results.md", "xvfb-run -a pvpython tests/cli/read_fields.py"),
     ("docs/schemes.md", "/usr/bin/python3 bench/schemes.py"),
     ("docs/studies.md", "python3 bench/sweep.py"),
+    ("docs/tyre.md", "rondo run cases/tyre-load.toml"),
     ("bench/README.md", "cmake --preset bench"),
     ("bench/README.md", "/usr/bin/python3 bench/instructions.py"),
     ("docs/decisions/023-batched-members.md", "for columns in 120 240 960"),

@@ -75,7 +75,10 @@ TEST(StepTable, ChoosesTheFastestStep) {
   EXPECT_EQ(kind(has::other_scheme), StepKind::general);
   EXPECT_EQ(kind(has::hati | has::other_scheme), StepKind::hati);
   EXPECT_EQ(kind(has::three_dimensions | has::camber), StepKind::solid_cyclic);
-  EXPECT_EQ(kind(has::three_dimensions | has::loaded_rim), StepKind::solid_wheel);
+  EXPECT_EQ(kind(has::three_dimensions | has::loaded_rim | has::nonlinear_cords),
+            StepKind::solid_cyclic);
+  EXPECT_EQ(kind(has::three_dimensions | has::loaded_rim | has::friction_law),
+            StepKind::solid_wheel);
 }
 
 TEST(StepTable, TellsWhyNotTheFasterSteps) {
@@ -85,9 +88,9 @@ TEST(StepTable, TellsWhyNotTheFasterSteps) {
   EXPECT_EQ(step_text(has::body_contact | has::implicit),
             "general (not fused cyclic, fused sparse: contact between bodies; not fused bodies: "
             "implicit elements)");
-  EXPECT_EQ(
-      step_text(has::three_dimensions | has::loaded_rim),
-      "general 3-D on a loaded rim (not fused 3-D cyclic, general 3-D: rim that forces move)");
+  EXPECT_EQ(step_text(has::three_dimensions | has::loaded_rim | has::friction_law),
+            "general 3-D on a loaded rim (not fused 3-D cyclic: friction that is not constant; not "
+            "general 3-D: rim that forces move)");
 }
 
 }  // namespace
