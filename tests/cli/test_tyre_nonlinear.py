@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Steps in time of a tyre whose cords and air are nonlinear, against an independent calculation."""
+import re
 import unittest
 
 import h5py
@@ -65,6 +66,8 @@ snapshots = 2
 """
         done = run("run", self.case(text), "-o", self.results, "--quiet", *CORDS)
         self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("warning", done.stderr)
+        self.assertEqual(summary(self.results)["integration_relative"], 0.0)
         self.assertLess(summary(self.results)["energy_residual_relative"], 1e-12)
         with h5py.File(self.results / "results.h5") as file:
             self.assertLess(np.abs(file["snapshots/displacement"][:]).max(), 1e-15)
@@ -98,6 +101,27 @@ torque = 0.0
         self.assertEqual(done.returncode, 2)
         self.assertIn("steady rolling is linear about the inflated state", done.stderr)
         self.assertIn("inflation.nonlinear", done.stderr)
+        text = standing(5e-3, 0.1)
+        done = run("modes", self.case(text), "-o", self.results, "--standing", *CORDS)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("rondo run with nonlinear cords gives the load", done.stderr)
+        done = run("check", self.case(text), *CORDS, "--set", "initial.state=stationary", "--set", "inflation.spin=20")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("initial.state", done.stderr)
+
+    def test_the_step_is_that_of_taut_cords(self):
+        """A cap that is slack in the inflated state, at a thousandth of its stiffness, is still one that may be
+        stretched: without nonlinear cords it sets no step."""
+        slack = ("--set", "cords[3].stiffness=2e5", "--set", "cords[3].compression=1e-3", "--set",
+                 "cords[3].prestrain=-0.01")
+
+        def critical(*words):
+            done = run("check", self.case(standing(5e-3, 0.1)), *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return float(re.search(r"critical step +(\S+) s", done.stdout)[1])
+        taut = critical("--set", "cords[3].stiffness=2e5")
+        self.assertAlmostEqual(critical(*slack, *CORDS) / taut, 1.0, delta=0.02)
+        self.assertGreater(critical(*slack), 1.5 * taut)
 
 
 if __name__ == "__main__":

@@ -13,8 +13,8 @@ namespace {
 
 constexpr JsonMember<double> rubber_rows[] = {
     {"integration_relative", "number", "",
-     "Only with rubber at finite strain or nonlinear cords: magnitude of `integration` of `history.csv` at the last step; a warning "
-     "above 0.01",
+     "Only with rubber at finite strain or nonlinear cords: magnitude of `integration` of "
+     "`history.csv` at the last step; a warning above 0.01",
      [](const double& relative) -> Json { return relative; }},
 };
 
@@ -36,7 +36,7 @@ std::string inverted_rubber(const mesh::Mesh& mesh, std::span<const Vec2> u, dou
 
 void summarise_rubber(const dynamics::MaterialReport& last, double exchanged, Json& j,
                       RunReport& r) {
-  const double relative = exchanged > 0.0 ? std::abs(last.integration()) / exchanged : 0.0;
+  const double relative = std::abs(last.relative_integration(exchanged));
   add_members(rubber_rows, relative, j);
   r.notes.push_back(
       fmt::format("integration: work of the internal forces less energy stored and lost, {:.1e} "

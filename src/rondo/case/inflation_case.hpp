@@ -31,10 +31,10 @@ struct MountingCase {
   double radial = 0.0, axial = 0.0;  ///< [m]
 };
 
-/// Absent: the wheel is linear about its undeformed shape.
 /// What is nonlinear in the motion about the inflated state.
 enum class TyreMotion { linear, cords };
 
+/// Absent: the wheel is linear about its undeformed shape.
 struct InflationCase {
   std::string curve;           ///< that the air presses on; empty: no air
   double pressure = 0.0;       ///< [Pa]

@@ -15,6 +15,11 @@ struct MaterialReport {
   [[nodiscard]] double integration() const noexcept {
     return internal_work - stored_energy - dissipation_viscous;
   }
+  /// That over the energy exchanged; 0 where nothing is but rounding.
+  [[nodiscard]] double relative_integration(double exchanged) const noexcept {
+    constexpr double rounding = 1e-14;  // J, J/m
+    return exchanged > rounding ? integration() / exchanged : 0.0;
+  }
 };
 
 }  // namespace rondo::dynamics

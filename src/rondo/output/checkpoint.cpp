@@ -184,7 +184,7 @@ void put_state(File& file, const dynamics::SavedState& s) {
   put(file, "/state/branches", s.branches,
       {"1", "viscous strains of rubber: xx, yy, xy of each branch of each element"});
   put(file, "/state/internal_work", s.internal_work,
-      {"J/m", "of rubber: work and dissipation, and what their rounding left"});
+      {"J/m", "of nonlinear forces: work and dissipation, and what their rounding left"});
   put(file, "/state/rim", s.rim, {"1", "what a loaded rim carries"});
   put(file, "/state/ring", s.ring, {"1", "contacts of a massless boundary"});
   put(file, "/state/interface", s.interface,

@@ -149,22 +149,20 @@ constexpr std::array massless{
               [](const H& r) { return static_cast<double>(r.extensions); }}};
 
 constexpr std::array rubber{
-    Column<H>{"internal_work", "J/m",
-              "done against the forces of the elements, from the energy that they store at the "
-              "start on; at `time_s`, and `strain` is that of the half step before",
-              [](const H& r) { return r.material.internal_work; }},
+    Column<H>{
+        "internal_work", "J/m",
+        "done against the forces of the elements, cords and air, from the energy that they store "
+        "at the start on; at `time_s`, and `strain` is that of the half step before",
+        [](const H& r) { return r.material.internal_work; }},
     Column<H>{"stored_energy", "J/m",
-              "of the elements at `time_s`, their viscous branches included",
+              "of the elements, cords and air at `time_s`, viscous branches of rubber included",
               [](const H& r) { return r.material.stored_energy; }},
     Column<H>{"dissipation_viscous", "J/m", "by the branches of `material.viscosity`",
               [](const H& r) { return r.material.dissipation_viscous; }},
     Column<H>{"integration", "1",
               "(`internal_work` − `stored_energy` − `dissipation_viscous`) over the energy "
               "exchanged so far: what the steps miss of the forces, of second order in the step",
-              [](const H& r) {
-                return r.balance.exchanged > 0.0 ? r.material.integration() / r.balance.exchanged
-                                                 : 0.0;
-              }}};
+              [](const H& r) { return r.material.relative_integration(r.balance.exchanged); }}};
 
 constexpr std::array hati{
     Column<H>{"work_interface", "J/m",

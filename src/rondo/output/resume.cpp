@@ -164,7 +164,8 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const dynamics::StepKind step = step_of(model);
   const bool general = step == dynamics::StepKind::general || step == dynamics::StepKind::wheel;
   const bool rim = model.rim.has_value(), massless = has_massless_contact(model);
-  const bool of_force = general || rim || (model.stiffness_damping > 0.0 && !parts);
+  const bool of_force = general || rim || (model.stiffness_damping > 0.0 && !parts) ||
+                        (model.solid && model.solid->swept);
   // The reference step of a wheel in three dimensions always carries it.
   const bool carries_force = of_force || (model.solid && !s.force.empty());
   const std::size_t force = carries_force ? n : 0;

@@ -17,6 +17,14 @@ namespace {
 /// Tables are taken at their ends, once the wheel is set down and inflated [s].
 constexpr double at_last = 1e300;
 
+void refuse_nonlinear(const Case& c) {
+  if (!c.inflation || c.inflation->nonlinear == TyreMotion::linear) return;
+  throw case_error(c, "inflation.nonlinear",
+                   "--standing presses the wheel down as one that is linear about its inflated "
+                   "state",
+                   "\"none\"; rondo run with nonlinear cords gives the load at a height");
+}
+
 double ground_height(const Case& c, double radius) {
   if (!c.ground)
     throw case_error(c, "ground", "there is no ground to stand on",
@@ -87,6 +95,7 @@ void refuse(const Case& c, const statics::RollingSolution& found, double lowest,
 
 StandingWheel standing_wheel(const Case& c, const mesh::Mesh& mesh, std::span<const double> mass,
                              const fem::SolidSector& sector) {
+  refuse_nonlinear(c);
   const std::optional<Wall> wall = wall_of(mesh);
   const statics::RollingDrive drive =
       drive_of(c, ground_height(c, wall ? wall->radius : c.disk.outer_radius));

@@ -127,20 +127,30 @@ void warn_of_spin(CaseValues& in, Case& c) {
     if (std::abs(spin - rest) <= far_from_rest * std::max(spin, rest)) continue;
     c.warnings.push_back(fmt::format(
         "motion.angular_velocity = {} rad/s is far from the {} rad/s at which the wheel is in "
-        "equilibrium (inflation.spin): what the spin changes there is linear",
-        point[1], spin_at_rest(c)));
+        "equilibrium (inflation.spin): what the spin changes there is linear{}",
+        point[1], spin_at_rest(c),
+        c.inflation->nonlinear == TyreMotion::linear ? "" : " in the rubber"));
     return;
   }
 }
 
-/// Steady rolling and modes are linear about the state.
+/// Steady rolling is linear about the state, and so is the equilibrium with another spin.
 void check_nonlinear(CaseValues& in, const Case& c) {
-  if (c.inflation->nonlinear == TyreMotion::linear ||
-      c.analysis.kind != AnalysisKind::steady_rolling)
-    return;
-  in.refuse("inflation.nonlinear",
-            "\"cords\" is for steps in time, and steady rolling is linear about the inflated state",
-            "\"none\"; or analysis.kind = \"dynamic\", and a motion.speed");
+  if (c.inflation->nonlinear == TyreMotion::linear) return;
+  if (c.analysis.kind == AnalysisKind::steady_rolling)
+    return in.refuse(
+        "inflation.nonlinear",
+        "\"cords\" is for steps in time, and steady rolling is linear about the inflated state",
+        "\"none\"; or analysis.kind = \"dynamic\", and a motion.speed");
+  if (c.initial.state == InitialState::stationary &&
+      std::abs(c.motion.angular_velocity.at(0.0)) != std::abs(spin_at_rest(c)))
+    in.refuse(
+        "initial.state",
+        fmt::format("\"stationary\" is linear about the state at {} rad/s "
+                    "(inflation.spin), and with inflation.nonlinear = \"cords\" no "
+                    "equilibrium at the spin of t = 0",
+                    spin_at_rest(c)),
+        "\"rest\"; or inflation.spin = motion.angular_velocity at t = 0, which is its default");
 }
 
 }  // namespace
@@ -167,7 +177,8 @@ void check_inflation(CaseValues& in, Case& c) {
     in.fault("disk.tread", "with [inflation] all columns of the wheel are alike",
              "no [disk.tread]; grooves around the wheel in a [section]");
   check_stress(in, c);
-  if (in.good({"inflation.nonlinear", "analysis.kind"})) check_nonlinear(in, c);
+  if (in.good({"inflation", "analysis.kind", "motion.angular_velocity", "initial.state"}))
+    check_nonlinear(in, c);
   if (in.good({"inflation"})) warn_of_spin(in, c);
 }
 

@@ -28,7 +28,7 @@ constexpr std::array names{
     FeatureName{has::rubber, "rubber at finite strain"},
     FeatureName{has::rubber | has::pressure | has::sharp_corners,
                 "pressure on rubber with sharp corners of the ground"},
-    FeatureName{has::nonlinear_cords, "cords and air of a tyre that are nonlinear"},
+    FeatureName{has::three_dimensions | has::nonlinear_cords, "nonlinear cords and air of a tyre"},
     FeatureName{has::own_material, "rubber in triangles, or a material of your own"},
     FeatureName{has::implicit, "implicit elements"},
     FeatureName{has::massless, "contact nodes without mass"},

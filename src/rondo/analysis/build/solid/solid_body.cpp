@@ -66,8 +66,13 @@ void add_pull(const WheelAtRest& rest, dynamics::SolidBody& body) {
   if (!rest.load.empty()) body.pressures.push_back({rest.load, dynamics::Table(1.0), true});
 }
 
-/// @return upper bound of ω² [1/s²]
-double make_solid_model(const Case& c, Setup& s) {
+/// What the critical step is found of.
+struct Stiffest {
+  std::optional<fem::SolidSector> sector;  ///< none: that of the model
+  double frequencies_below = 0.0;          ///< upper bound of ω² [1/s²]
+};
+
+Stiffest make_solid_model(const Case& c, Setup& s) {
   Model& model = s.model;
   WheelAtRest rest = wheel_at_rest(c, s.mesh, s.materials);
   model.scheme = c.time.scheme;
@@ -90,28 +95,30 @@ double make_solid_model(const Case& c, Setup& s) {
   add_pull(rest, body);
   body.swept = std::move(rest.swept);
   s.inflation = std::move(rest.inflation);
-  return rest.frequencies_below;
+  return {std::move(rest.stiffest), rest.frequencies_below};
 }
 
 /// The rim moves in its plane: what it feels of K is that of no axial displacement.
-dynamics::CriticalStep step_with_solid_rim(const Model& model, const dynamics::CriticalStep& held,
+dynamics::CriticalStep step_with_solid_rim(const Model& model, const fem::SolidSector& sector,
+                                           const dynamics::CriticalStep& held,
                                            dynamics::LaggedDamping damping) {
   std::vector<Vec3> in_space(model.n_nodes()), force(model.n_nodes());
   const auto product = [&](std::span<const Vec2> u, std::span<Vec2> out) {
     std::ranges::transform(u, in_space.begin(), [](Vec2 a) { return Vec3(a, 0.0); });
-    fem::apply(model.solid->sector, in_space, force);
+    fem::apply(sector, in_space, force);
     std::ranges::transform(force, out.begin(), &Vec3::plane);
   };
   return step_with_rim(model, product, held, damping);
 }
 
-void find_solid_step(const Case& c, double frequencies_below, Setup& s) {
+void find_solid_step(const Case& c, const Stiffest& stiffest, Setup& s) {
   const Model& m = s.model;
   const dynamics::LaggedDamping damping{c.damping.stiffness, c.rim ? c.damping.mass : 0.0};
+  const fem::SolidSector& sector = stiffest.sector ? *stiffest.sector : m.solid->sector;
   const dynamics::CriticalStep held =
-      dynamics::critical_step(m.solid->sector, m.mass, damping, frequencies_below);
+      dynamics::critical_step(sector, m.mass, damping, stiffest.frequencies_below);
   s.critical_plain = held.step;
-  s.critical = m.rim ? step_with_solid_rim(m, held, damping) : held;
+  s.critical = m.rim ? step_with_solid_rim(m, sector, held, damping) : held;
 }
 
 std::string range_text(const dynamics::Table& table) {
@@ -153,10 +160,10 @@ std::vector<Vec3> solid_sector_load(const Case& c, const mesh::Mesh& mesh,
 
 void make_solid_body(const Case& c, int threads, Setup& s) {
   RONDO_DEMAND(s.mesh.is_solid() && !s.materials.empty(), s.mesh.n_nodes(), s.materials.size());
-  const double frequencies_below = make_solid_model(c, s);
+  const Stiffest stiffest = make_solid_model(c, s);
   check_hidden_ground(c, s);
   choose_threads(s, threads);
-  find_solid_step(c, frequencies_below, s);
+  find_solid_step(c, stiffest, s);
 }
 
 std::vector<Vec2> solid_positions(const Setup& s) {
@@ -185,6 +192,8 @@ void tell_solid_figures(const Case& c, Setup& s) {
                                               s.mesh.n_sectors, 3 * local, width_of(s.mesh)));
   if (s.inflation)
     for (Told& line : told_of(*s.inflation)) s.figures.push_back(std::move(line));
+  if (s.model.solid->swept)
+    s.figures.emplace_back("motion", "cords and air nonlinear, rubber linear about the state");
   if (c.motion.slip_angle.largest() != 0.0)
     s.figures.emplace_back("slip angle", range_text(c.motion.slip_angle));
   if (c.motion.camber != 0.0)

@@ -48,6 +48,20 @@ dynamics::SweptPart swept_part(const InflatedWheel& wheel, const statics::Inflat
           fem::finite::tangent_sector(mesh, alone.state(found.u, {}))};
 }
 
+/// K about the state with all cords as stiff as in tension; none: they are, or stay as they are.
+std::optional<fem::SolidSector> stiffest(const Case& c, const InflatedWheel& wheel,
+                                         const statics::Inflation& found, const mesh::Mesh& mesh) {
+  fem::finite::SweptSection section = wheel.energy().section();
+  bool softer = false;
+  for (fem::finite::Cords& cords : section.cords) {
+    softer = softer || cords.law.compression < 1.0;
+    cords.law.compression = std::max(cords.law.compression, 1.0);
+  }
+  if (!softer || c.inflation->nonlinear == TyreMotion::linear) return std::nullopt;
+  const fem::finite::SectorEnergy taut(std::move(section));
+  return fem::finite::tangent_sector(mesh, taut.state(found.u, wheel.loads().sector));
+}
+
 WheelAtRest inflated(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>& materials) {
   const InflatedWheel wheel(c, build_section(c, nullptr), materials);
   const statics::Inflation found = equilibrium_of(c, wheel);
@@ -55,7 +69,8 @@ WheelAtRest inflated(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>
   for (int j = 0; j < mesh.n_sectors; ++j)
     rest.mass.insert(rest.mass.end(), wheel.energy().mass().begin(), wheel.energy().mass().end());
   rest.sector = fem::finite::tangent_sector(mesh, found.state);
-  rest.frequencies_below = row_bound(rest.sector, rest.mass);
+  rest.stiffest = stiffest(c, wheel, found, mesh);
+  rest.frequencies_below = row_bound(rest.stiffest ? *rest.stiffest : rest.sector, rest.mass);
   if (c.inflation->nonlinear == TyreMotion::cords) rest.swept = swept_part(wheel, found, mesh);
   mesh::move_nodes(mesh, in_all_sectors(mesh, found.u),
                    c.section ? c.section->mesh.contact : "tread");

@@ -20,6 +20,9 @@ struct WheelAtRest {
   std::vector<Vec3> load;
   std::optional<InflationFigures> inflation;   ///< none: undeformed
   std::optional<dynamics::SweptPart> swept{};  ///< none: the motion is linear
+  /// With nonlinear cords of which some resist compression less: K with all of them as stiff as in
+  /// tension, which they may become. Its frequencies are those of `frequencies_below`.
+  std::optional<fem::SolidSector> stiffest{};
 };
 
 /// If the case has [inflation], this moves the mesh to its equilibrium and takes the laws of rubber
