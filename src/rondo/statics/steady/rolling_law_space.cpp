@@ -76,6 +76,8 @@ void sweep(const SpaceProblem& problem, const RollingDrive& drive, RollingState&
     for (const Index pair : order) {
       const Index row = 3 * pair;
       const NodeMatrix<3> own = problem.matrix.block<3, 3>(row, row);
+      // The law of this pair alone has no single solution: it is left to the others.
+      if (!(own(0, 0) > drive.friction * std::hypot(own(0, 1), own(0, 2)))) continue;
       contact::SpatialProblem local;
       const NodeVector<3> before = s.point.force.segment<3>(row);
       local.free = vec_of(NodeVector<3>(moved.segment<3>(row) - own * before));
