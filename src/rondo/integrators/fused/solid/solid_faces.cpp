@@ -19,10 +19,12 @@ void write(Vec3 a, double (&to)[3]) noexcept {
 class Maker {
  public:
   Maker(const Model& model, const RingLayout& layout, SolidFacesPlan& plan)
-      : model_(model), layout_(layout), plan_(plan), row_of_(rows_of_nodes(layout)) {
-    const auto& turn = model.solid->sector.turn;
-    first_ = turn[0];
-    next_ = conj(turn[0]) * turn[1];
+      : model_(model),
+        layout_(layout),
+        plan_(plan),
+        row_of_(rows_of_nodes(layout)),
+        first_(model.solid->sector.turn[0]),
+        next_(conj(first_) * model.solid->sector.turn[1]) {
     plan_.place.assign(at(layout.n_local), -1);
   }
 
