@@ -60,7 +60,7 @@ fem::Material rubber() {
 
 enum class Motion { spinning, rolling, loaded };
 
-/// As high as it is driven at, and held there by its load and a spring.
+/// The rim has the height of the driven wheel; its load and a spring hold it there.
 dynamics::RimBody loaded_rim(double height) {
   dynamics::RimBody rim;
   rim.free_y = rim.free_spin = true;

@@ -12,6 +12,7 @@ import json
 import math
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
 
@@ -25,37 +26,6 @@ PRESSURE = {  # Pa: load N, lateral and longitudinal stiffness N/mm, ply steer N
     1.5e5: (2732.4, 110.6, 204.0, -140.88, 1199.2), 1.8e5: (3128.2, 125.4, 224.3, -149.80, 1308.8),
     2.2e5: (3646.3, 146.5, 251.8, -148.58, 1445.8), 2.6e5: (4158.6, 165.2, 277.3, -142.62, 1534.6)}
 ASKEW = 0.78  # rad: the largest slip angle
-
-
-def divided(text):
-    """The text of a .msh file with each quadrilateral divided in four and each edge in two."""
-    lines = text.splitlines()
-    first, last = lines.index("$Nodes") + 2, lines.index("$EndNodes")
-    places = [[float(word) for word in line.split()[1:]] for line in lines[first:last]]
-    numbers = {line.split()[0]: k for k, line in enumerate(lines[first:last])}
-    known = {}
-
-    def between(*nodes):
-        key = tuple(sorted(nodes))
-        if key not in known:
-            known[key] = len(places)
-            places.append([sum(places[n][i] for n in nodes) / len(nodes) for i in range(3)])
-        return known[key]
-
-    elements = []
-    for line in lines[lines.index("$Elements") + 2:lines.index("$EndElements")]:
-        words = line.split()
-        n = [numbers[word] for word in words[5:]]
-        middles = [between(n[k], n[(k + 1) % len(n)]) for k in range(len(n))]
-        parts = [(n[0], middles[0]), (middles[0], n[1])]
-        if len(n) == 4:
-            center = between(*n)
-            parts = [(n[k], middles[k], center, middles[k - 1]) for k in range(4)]
-        elements += [words[1:5] + [str(k + 1) for k in part] for part in parts]
-    return "\n".join(lines[:first - 1] + [str(len(places))]
-                     + [" ".join(map(str, [k, *place])) for k, place in enumerate(places, 1)]
-                     + ["$EndNodes", "$Elements", str(len(elements))]
-                     + [" ".join([str(k), *words]) for k, words in enumerate(elements, 1)] + ["$EndElements"]) + "\n"
 
 
 class Tyre:
@@ -194,7 +164,8 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         meshes = {"test": test_tyre.MESH, "coarse": test_tyre_rolling.MESH, "fine": folder / "fine.msh"}
-        meshes["fine"].write_text(divided(test_tyre.MESH.read_text()))
+        subprocess.run(["gmsh", test_tyre.MESH, "-refine", "-v", "2", "-format", "msh22", "-o", meshes["fine"]],
+                       check=True)
         if arguments.only != "pressure":
             convergence(program, folder, meshes)
         if arguments.only != "convergence":

@@ -382,8 +382,7 @@ constexpr CaseKey keys[] = {
     {"inflation.spin", "rad/s", FIELD(inflation->spin), any,
      optional.if_(has_rest_spin, "motion.angular_velocity at t = 0"),
      "Spin at which the wheel is in equilibrium; its motion is linear about this state, but for "
-     "what "
-     "`inflation.nonlinear` names"},
+     "what `inflation.nonlinear` names"},
     {"inflation.steps", "-", FIELD(inflation->steps), between(1, 1000), optional,
      "Number of steps in which pressure, spin and mounting grow together"},
     {"inflation.nonlinear", "-", FIELD(inflation->nonlinear), one_from("none", "cords"), optional,

@@ -21,7 +21,7 @@ struct ModesBody {
   int free = 0;                         ///< bodies that nothing holds
   bool wide_rows = false;               ///< has_wide_rows()
   std::vector<std::string> warnings{};  ///< warnings of the case and the mesh
-  // Of a wheel in three dimensions, about the state of the case:
+  // A wheel in three dimensions has these, about the state of the case:
   fem::SolidSector sector{};
   std::optional<InflationFigures> inflation{};
 

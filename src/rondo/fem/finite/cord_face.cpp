@@ -37,28 +37,6 @@ CordState cord_state(const CordPoint& point, const FaceCorners& x, const CordLaw
   return s;
 }
 
-Energy<4> cord_face(std::span<const CordPoint, 4> points, const FaceCorners& x,
-                    const CordLaw& law) noexcept {
-  Energy<4> out;
-  for (const CordPoint& p : points) {
-    const CordState s = cord_state(p, x, law);
-    const double strain = s.stretch - 1.0 + law.prestrain;
-    const double stiffness = law.stiffness * (strain < 0.0 ? law.compression : 1.0);
-    out.value += 0.5 * p.length * s.force * strain;
-    const Eigen::Vector3d n(s.along.x, s.along.y, s.along.z);
-    const double turns = s.force / s.stretch;  // what a force resists turning by
-    const Eigen::Matrix3d k =
-        p.length * ((stiffness - turns) * n * n.transpose() + turns * Eigen::Matrix3d::Identity());
-    for (Eigen::Index a = 0; a < 4; ++a) {
-      const double of_a = p.slope[static_cast<std::size_t>(a)];
-      out.force.segment<3>(3 * a) += p.length * s.force * of_a * n;
-      for (Eigen::Index b = 0; b < 4; ++b)
-        out.stiffness.block<3, 3>(3 * a, 3 * b) += of_a * p.slope[static_cast<std::size_t>(b)] * k;
-    }
-  }
-  return out;
-}
-
 FaceForce cord_force(std::span<const CordPoint, 4> points, const FaceCorners& x,
                      const CordLaw& law) noexcept {
   FaceForce out;
@@ -66,6 +44,29 @@ FaceForce cord_force(std::span<const CordPoint, 4> points, const FaceCorners& x,
     const CordState s = cord_state(p, x, law);
     out.energy += 0.5 * p.length * s.force * (s.stretch - 1.0 + law.prestrain);
     for (std::size_t a = 0; a < 4; ++a) out.force[a] += p.length * s.force * p.slope[a] * s.along;
+  }
+  return out;
+}
+
+Energy<4> cord_face(std::span<const CordPoint, 4> points, const FaceCorners& x,
+                    const CordLaw& law) noexcept {
+  const FaceForce first = cord_force(points, x, law);
+  Energy<4> out;
+  out.value = first.energy;
+  for (std::size_t a = 0; a < 4; ++a)
+    out.force.segment<3>(static_cast<Eigen::Index>(3 * a)) << first.force[a].x, first.force[a].y,
+        first.force[a].z;
+  for (const CordPoint& p : points) {
+    const CordState s = cord_state(p, x, law);
+    const double stiffness = law.stiffness * (s.force < 0.0 ? law.compression : 1.0);
+    const Eigen::Vector3d n(s.along.x, s.along.y, s.along.z);
+    const double turns = s.force / s.stretch;  // what a force resists turning by
+    const Eigen::Matrix3d k =
+        p.length * ((stiffness - turns) * n * n.transpose() + turns * Eigen::Matrix3d::Identity());
+    for (Eigen::Index a = 0; a < 4; ++a)
+      for (Eigen::Index b = 0; b < 4; ++b)
+        out.stiffness.block<3, 3>(3 * a, 3 * b) +=
+            p.slope[static_cast<std::size_t>(a)] * p.slope[static_cast<std::size_t>(b)] * k;
   }
   return out;
 }

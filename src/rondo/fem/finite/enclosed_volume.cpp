@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/fem/finite/enclosed_volume.hpp"
 
+#include <array>
 #include <cstddef>
-
-#include "rondo/fem/finite/face_points.hpp"
 
 namespace rondo::fem::finite {
 namespace {
@@ -19,49 +18,52 @@ Eigen::Matrix3d cross_by(Vec3 a) {
   return m;
 }
 
-}  // namespace
+/// The corners of FacePoint.
+constexpr std::array<double, 4> xi{-1.0, 1.0, 1.0, -1.0}, eta{-1.0, -1.0, 1.0, 1.0};
 
-Energy<4> cone_volume(const std::array<Vec3, 4>& x) noexcept {
-  Energy<4> out;
-  for (std::size_t q = 0; q < 4; ++q) {
-    const FacePoint p = face_point(x, q);
-    // det(x, x₁, x₂): its derivatives by the three are cross products.
-    const Vec3 by_place = cross(p.along, p.across), by_along = cross(p.across, p.place),
-               by_across = cross(p.place, p.along);
-    out.value += dot(p.place, by_place) / 3.0;
-    const Eigen::Matrix3d place = cross_by(p.place), along = cross_by(p.along),
-                          across = cross_by(p.across);
+/// The middle of a face, and ∂x/∂ξ, ∂x/∂η there.
+struct Middle {
+  explicit Middle(const std::array<Vec3, 4>& x) noexcept {
     for (std::size_t a = 0; a < 4; ++a) {
-      const auto row = static_cast<Eigen::Index>(3 * a);
-      out.force.segment<3>(row) += vector_of(p.shape[a] * by_place + p.slope_along[a] * by_along +
-                                             p.slope_across[a] * by_across) /
-                                   3.0;
-      for (std::size_t b = 0; b < 4; ++b) {
-        // ∂(x₁ × x₂) = x₁ × ∂x₂ - x₂ × ∂x₁, and so on.
-        const double pa = p.shape[a] * p.slope_across[b] - p.slope_across[a] * p.shape[b],
-                     pl = p.slope_along[a] * p.shape[b] - p.shape[a] * p.slope_along[b],
-                     ac = p.slope_across[a] * p.slope_along[b] -
-                          p.slope_along[a] * p.slope_across[b];
-        out.stiffness.block<3, 3>(row, static_cast<Eigen::Index>(3 * b)) +=
-            (pa * along + pl * across + ac * place) / 3.0;
-      }
+      place += 0.25 * x[a];
+      along += 0.25 * xi[a] * x[a];
+      across += 0.25 * eta[a] * x[a];
     }
   }
-  return out;
-}
+  Vec3 place, along, across;
+};
+
+}  // namespace
 
 /// With x = m + a ξ + c η + d ξη the volume is 4/3 m·(a × c): d drops out of the integral.
 FaceForce cone_force(const std::array<Vec3, 4>& x) noexcept {
-  const Vec3 middle = 0.25 * (x[0] + x[1] + x[2] + x[3]),
-             along = 0.25 * (x[1] + x[2] - x[0] - x[3]),
-             across = 0.25 * (x[2] + x[3] - x[0] - x[1]);
-  const Vec3 by_middle = cross(along, across), by_along = cross(across, middle),
-             by_across = cross(middle, along);
-  constexpr std::array<double, 4> xi{-1.0, 1.0, 1.0, -1.0}, eta{-1.0, -1.0, 1.0, 1.0};
+  const Middle mid(x);
+  const Vec3 by_middle = cross(mid.along, mid.across), by_along = cross(mid.across, mid.place),
+             by_across = cross(mid.place, mid.along);
   FaceForce out;
-  out.energy = 4.0 / 3.0 * dot(middle, by_middle);
+  out.energy = 4.0 / 3.0 * dot(mid.place, by_middle);
   for (std::size_t a = 0; a < 4; ++a)
     out.force[a] = (by_middle + xi[a] * by_along + eta[a] * by_across) / 3.0;
+  return out;
+}
+
+Energy<4> cone_volume(const std::array<Vec3, 4>& x) noexcept {
+  const FaceForce first = cone_force(x);
+  const Middle mid(x);
+  const Eigen::Matrix3d place = cross_by(mid.place), along = cross_by(mid.along),
+                        across = cross_by(mid.across);
+  Energy<4> out;
+  out.value = first.energy;
+  for (std::size_t a = 0; a < 4; ++a) {
+    const auto row = static_cast<Eigen::Index>(3 * a);
+    out.force.segment<3>(row) = vector_of(first.force[a]);
+    // ∂(a × c) = a × ∂c - c × ∂a, and so on.
+    for (std::size_t b = 0; b < 4; ++b)
+      out.stiffness.block<3, 3>(row, static_cast<Eigen::Index>(3 * b)) =
+          ((eta[b] - eta[a]) * along + (xi[a] - xi[b]) * across +
+           (eta[a] * xi[b] - xi[a] * eta[b]) * place) /
+          12.0;
+  }
   return out;
 }
 

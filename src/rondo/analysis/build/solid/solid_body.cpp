@@ -66,7 +66,7 @@ void add_pull(const WheelAtRest& rest, dynamics::SolidBody& body) {
   if (!rest.load.empty()) body.pressures.push_back({rest.load, dynamics::Table(1.0), true});
 }
 
-/// What the critical step is found of.
+/// The critical step is that of this stiffness.
 struct Stiffest {
   std::optional<fem::SolidSector> sector;  ///< none: that of the model
   double frequencies_below = 0.0;          ///< upper bound of ω² [1/s²]

@@ -36,7 +36,7 @@ std::vector<Vec3> pull_of(const mesh::Mesh& mesh, const WheelAtRest& rest, doubl
   return load;
 }
 
-/// Cords and air apart from the rubber, whose tangent stays. @param mesh not yet inflated
+/// Cords and air apart from the rubber, whose tangent stays.
 dynamics::SweptPart swept_part(const InflatedWheel& wheel, const statics::Inflation& found,
                                const mesh::Mesh& mesh) {
   fem::finite::SweptSection rubber = wheel.energy().section();
@@ -51,13 +51,12 @@ dynamics::SweptPart swept_part(const InflatedWheel& wheel, const statics::Inflat
 /// K about the state with all cords as stiff as in tension; none: they are, or stay as they are.
 std::optional<fem::SolidSector> stiffest(const Case& c, const InflatedWheel& wheel,
                                          const statics::Inflation& found, const mesh::Mesh& mesh) {
+  const auto softer = [](const fem::finite::Cords& cords) { return cords.law.compression < 1.0; };
+  if (c.inflation->nonlinear == TyreMotion::linear ||
+      std::ranges::none_of(wheel.energy().section().cords, softer))
+    return std::nullopt;
   fem::finite::SweptSection section = wheel.energy().section();
-  bool softer = false;
-  for (fem::finite::Cords& cords : section.cords) {
-    softer = softer || cords.law.compression < 1.0;
-    cords.law.compression = std::max(cords.law.compression, 1.0);
-  }
-  if (!softer || c.inflation->nonlinear == TyreMotion::linear) return std::nullopt;
+  for (fem::finite::Cords& cords : section.cords) cords.law.compression = 1.0;
   const fem::finite::SectorEnergy taut(std::move(section));
   return fem::finite::tangent_sector(mesh, taut.state(found.u, wheel.loads().sector));
 }

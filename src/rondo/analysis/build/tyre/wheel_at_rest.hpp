@@ -20,8 +20,8 @@ struct WheelAtRest {
   std::vector<Vec3> load;
   std::optional<InflationFigures> inflation;   ///< none: undeformed
   std::optional<dynamics::SweptPart> swept{};  ///< none: the motion is linear
-  /// With nonlinear cords of which some resist compression less: K with all of them as stiff as in
-  /// tension, which they may become. Its frequencies are those of `frequencies_below`.
+  /// K with all cords as stiff as in tension. It is there if the cords are nonlinear and some of
+  /// them resist compression less; `frequencies_below` is then its bound.
   std::optional<fem::SolidSector> stiffest{};
 };
 

@@ -110,7 +110,7 @@ kernels::SolidFaces SolidFacesPlan::faces() const noexcept {
   return s;
 }
 
-/// Of eight sectors, all of which are in the state.
+/// The loops run over eight sectors, all of which are in the state.
 StateOfFaces state_of_faces(const SolidFacesPlan& plan, const RingLayout& layout,
                             const kernels::SolidTable& table) {
   const std::vector<double> rest(layout.chunk_size());

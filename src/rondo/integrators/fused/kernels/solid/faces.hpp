@@ -103,6 +103,7 @@ inline Pack air_face(const SolidFaces& s, const SolidAirFace& face,
   return share * add_dot(middle, by_middle, all(0.0));
 }
 
+/// Finds the forces of all faces on all columns, and on those of the sector before the first.
 void solid_faces(const SolidFaces& s) noexcept {
   using namespace rondo::dynamics::kernels;
   for (int pack = -1; pack * lanes < s.columns; ++pack) {

@@ -7,7 +7,7 @@
 
 namespace {
 
-/// What the axial components of a row add to their own sums, without factors.
+/// Sums of a row that the plane does not have, without the mass.
 struct AxialSums {
   Pack force, change, moved, twice_mean, load, rest, force_moved;
 };
