@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 ROW = 1.55  # in, height of a row of panels
 TOP = 1.25  # of a panel's range: room for names above its curves
+LETTERS = 60  # of a line of the legend, with 8 for each curve: more would reach beyond the axes
 FREE = ("speed", "height")  # of the directions x and y
 ENERGIES = {"kinetic_rim": "kinetic, of the rim", "support_energy": "springs",
             "work_torque": "work of the torque", "work_held": "work of what holds",
@@ -156,7 +157,8 @@ def _draw(ax: Axes, time: Array, panel: Panel) -> None:
     if len(time):
         ax.set_xlim(0.0, time[-1])
     if "" not in panel.curves:
+        rows = 1 if sum(len(name) + 8 for name in panel.curves) <= LETTERS else 2
         low, high = ax.get_ylim()
-        ax.set_ylim(low, low + (high - low) * TOP)
-        ax.legend(loc="upper left", ncols=6, handlelength=1.6, columnspacing=1.0,
-                  borderaxespad=0.1)
+        ax.set_ylim(low, low + (high - low) * (1.0 + rows * (TOP - 1.0)))
+        ax.legend(loc="upper left", ncols=-(-len(panel.curves) // rows), handlelength=1.6,
+                  columnspacing=1.0, borderaxespad=0.1)
