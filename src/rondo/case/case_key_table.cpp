@@ -17,6 +17,7 @@ constexpr Allowed share{{0.0, 1.0, true, false}};
 constexpr double right_angle = 0.5 * std::numbers::pi;
 constexpr Allowed less_than_upright{{-right_angle, right_angle, true, true}};
 constexpr Allowed of_cords{{-1.5708, 1.5708, false, false}};
+constexpr Allowed half_turn{{0.0, 2.0 * right_angle, true, false}};
 constexpr Allowed slanted{{-0.78, 0.78, false, false}};  ///< up to about 45°
 
 constexpr Allowed between(double low, double high) {
@@ -54,6 +55,9 @@ bool region_is_of(const Case& c, std::size_t k) {
 }
 bool is_linear_or_by_ratio(const Case& c) {
   return !c.law.is_rubber() || !c.law.bulk_modulus;
+}
+bool has_window(const Case& c) {
+  return c.inflation && c.inflation->nonlinear == TyreMotion::window;
 }
 bool is_by_bulk(const Case& c) {
   return c.law.is_rubber() && c.law.bulk_modulus;
@@ -385,9 +389,13 @@ constexpr CaseKey keys[] = {
      "what `inflation.nonlinear` names"},
     {"inflation.steps", "-", FIELD(inflation->steps), between(1, 1000), optional,
      "Number of steps in which pressure, spin and mounting grow together"},
-    {"inflation.nonlinear", "-", FIELD(inflation->nonlinear), one_from("none", "cords"), optional,
-     "What is nonlinear in the motion about the inflated state: \"none\", or \"cords\", for cords "
-     "and air that follow every displacement. Steps in time only"},
+    {"inflation.nonlinear", "-", FIELD(inflation->nonlinear),
+     one_from("none", "cords", "window", "all"), optional,
+     "What is nonlinear about the inflated state: \"none\"; \"cords\", for cords and air that "
+     "follow every displacement; \"window\", for rubber near the ground as well; \"all\""},
+    {"inflation.window", "rad", FIELD(inflation->window), half_turn, optional.if_(has_window),
+     "Half of the angle about the lowest point in which rubber is not linear, for "
+     "inflation.nonlinear = \"window\""},
     {"inflation.mounting[].curve", "-", FIELD(inflation->mounting[k].curve), any, required,
      "Physical curve of `section.clamped` that is moved when the wheel is mounted on its rim"},
     {"inflation.mounting[].radial", "m", FIELD(inflation->mounting[k].radial), any, optional,

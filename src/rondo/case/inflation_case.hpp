@@ -32,7 +32,12 @@ struct MountingCase {
 };
 
 /// What is nonlinear in the motion about the inflated state.
-enum class TyreMotion { linear, cords };
+enum class TyreMotion {
+  linear,
+  cords,   ///< cords and air
+  window,  ///< these, and rubber near the ground
+  all,
+};
 
 /// Absent: the wheel is linear about its undeformed shape.
 struct InflationCase {
@@ -42,6 +47,7 @@ struct InflationCase {
   std::vector<MountingCase> mounting;
   int steps = 5;
   TyreMotion nonlinear = TyreMotion::linear;
+  double window = 0.61;  ///< to each side of the lowest point, for TyreMotion::window      [rad]
 };
 
 }  // namespace rondo::study

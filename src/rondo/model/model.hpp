@@ -14,6 +14,7 @@
 #include "rondo/core/field.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/finite/swept_forces.hpp"
+#include "rondo/fem/finite/swept_rubber.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/mesh/mesh.hpp"
 #include "rondo/model/motion.hpp"
@@ -97,10 +98,13 @@ struct SolidPressure {
                             ///< moment a rim that moves feels; `force` in N, `pressure` 1
 };
 
-/// Cords and air of a wheel whose forces are not linear about its state, and K of the rubber alone.
+/// Cords and air of a wheel whose forces are not linear about its state, K of the rubber alone, and
+/// what the rubber has beyond that in a window of columns.
 struct SweptPart {
   fem::finite::SweptFaces faces;
-  fem::SolidSector sector;  ///< [N/m]
+  fem::SolidSector sector;                           ///< [N/m]
+  std::optional<fem::finite::SweptRubber> rubber{};  ///< absent: it is linear
+  fem::finite::ColumnWindow window{};
 };
 
 /// Additional data of a wheel in three dimensions (docs/wheel3d.md). The fields of its state have

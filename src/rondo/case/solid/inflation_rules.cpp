@@ -116,9 +116,22 @@ void check_stress(CaseValues& in, Case& c) {
   c.output.stress = false;
 }
 
+/// Where the motion is linear about the state, for the end of a sentence.
+std::string_view linear_part(const InflationCase& c) {
+  switch (c.nonlinear) {
+    case TyreMotion::linear:
+      return "";
+    case TyreMotion::cords:
+      return " in the rubber";
+    default:
+      return " in the rubber away from the ground";
+  }
+}
+
 /// The crown grows with the spin by more than the linear motion should carry.
 void warn_of_spin(CaseValues& in, Case& c) {
-  if (!in.good({"motion.angular_velocity", "inflation.spin"}) ||
+  if (c.inflation->nonlinear == TyreMotion::all ||
+      !in.good({"motion.angular_velocity", "inflation.spin"}) ||
       !means_to(*find_case_key("motion.speed"), c.analysis.kind))
     return;
   const double rest = spin_at_rest(c) * spin_at_rest(c);
@@ -128,8 +141,7 @@ void warn_of_spin(CaseValues& in, Case& c) {
     c.warnings.push_back(fmt::format(
         "motion.angular_velocity = {} rad/s is far from the {} rad/s at which the wheel is in "
         "equilibrium (inflation.spin): what the spin changes there is linear{}",
-        point[1], spin_at_rest(c),
-        c.inflation->nonlinear == TyreMotion::linear ? "" : " in the rubber"));
+        point[1], spin_at_rest(c), linear_part(*c.inflation)));
     return;
   }
 }
@@ -142,6 +154,8 @@ void check_nonlinear(CaseValues& in, const Case& c) {
         "inflation.nonlinear",
         "\"cords\" is for steps in time, and steady rolling is linear about the inflated state",
         "\"none\"; or analysis.kind = \"dynamic\", and a motion.speed");
+  if (c.inflation->nonlinear != TyreMotion::cords)
+    return in.refuse("inflation.nonlinear", "rubber is linear in steps in time", "\"cords\"");
   if (c.initial.state == InitialState::stationary &&
       std::abs(c.motion.angular_velocity.at(0.0)) != std::abs(spin_at_rest(c)))
     in.refuse(

@@ -18,6 +18,13 @@ struct IsochoricState {
 /// @pre det F > 0
 [[nodiscard]] IsochoricState isochoric_state(const Rubber& rubber, const Eigen::Matrix3d& f);
 
+/// The first two alone. Not a number where det F <= 0.
+struct IsochoricStress {
+  double energy = 0.0;     ///< W                                                    [Pa]
+  Eigen::Matrix3d stress;  ///< ∂W/∂F                                                   [Pa]
+};
+[[nodiscard]] IsochoricStress isochoric_stress(const Rubber& rubber, const Eigen::Matrix3d& f);
+
 /// ∂J/∂F and ∂²J/∂F² of J = det F.
 struct VolumeState {
   double ratio = 0.0;  ///< J

@@ -39,6 +39,23 @@ Eigen::Matrix<double, 3, 8> moves_of(const HexahedronCorners& u) {
   return move;
 }
 
+/// det(1 + h) - 1: it keeps its digits as a sum of the invariants of h.
+double volume_change(const Eigen::Matrix3d& h) noexcept {
+  const double trace = h.trace();
+  return trace + 0.5 * (trace * trace - (h * h).trace()) + h.determinant();
+}
+
+/// U = κ/4 (J² - 1 - 2 ln J) of the mean J, and its derivatives.
+struct VolumeEnergy {
+  VolumeEnergy(double less_one, double bulk) noexcept {
+    const double mean = 1.0 + less_one, square = less_one * (2.0 + less_one);  // J² - 1
+    energy = 0.25 * bulk * (square - 2.0 * std::log1p(less_one));
+    pressure = 0.5 * bulk * square / mean;
+    modulus = 0.5 * bulk * (1.0 + 1.0 / (mean * mean));
+  }
+  double energy, pressure, modulus;  ///< [Pa]
+};
+
 }  // namespace
 
 double largest_stretch(const HexahedronPoints& points, const HexahedronCorners& u) {
@@ -51,6 +68,35 @@ double largest_stretch(const HexahedronPoints& points, const HexahedronCorners& 
     largest = std::max(largest, std::sqrt(of.eigenvalues()[2]));
   }
   return largest;
+}
+
+RubberForce rubber_force(const HexahedronPoints& points, const HexahedronCorners& u,
+                         const Rubber& rubber) noexcept {
+  const Eigen::Matrix<double, 3, 8> move = moves_of(u);
+  std::array<Eigen::Matrix3d, 8> f;
+  double volume = 0.0, change = 0.0;
+  for (std::size_t q = 0; q < 8; ++q) {
+    const Eigen::Matrix3d h = move * gradients_at(points, q);  // ∇u
+    f[q] = Eigen::Matrix3d::Identity() + h;
+    volume += points.volume[q];
+    change += points.volume[q] * volume_change(h);
+  }
+  const VolumeEnergy swell(change / volume, rubber.bulk_modulus);
+  RubberForce out;
+  out.energy = volume * swell.energy;
+  Eigen::Matrix<double, 3, 8> force = Eigen::Matrix<double, 3, 8>::Zero();
+  for (std::size_t q = 0; q < 8; ++q) {
+    const IsochoricStress shear = isochoric_stress(rubber, f[q]);
+    const Eigen::Matrix3d by_volume = f[q].determinant() * f[q].inverse().transpose();
+    out.energy += points.volume[q] * shear.energy;
+    force.noalias() += points.volume[q] * (shear.stress + swell.pressure * by_volume) *
+                       gradients_at(points, q).transpose();
+  }
+  for (std::size_t a = 0; a < 8; ++a) {
+    const auto f_a = force.col(static_cast<Eigen::Index>(a));
+    out.force[a] = {f_a[0], f_a[1], f_a[2]};
+  }
+  return out;
 }
 
 RubberEnergy rubber_hexahedron(const HexahedronPoints& points, const HexahedronCorners& u,
@@ -66,19 +112,14 @@ RubberEnergy rubber_hexahedron(const HexahedronPoints& points, const HexahedronC
     const Eigen::Matrix3d h = move * n;  // ∇u
     slopes[q] = slopes_of(n);
     f[q] = Eigen::Matrix3d::Identity() + h;
-    // det(1 + h) - 1 keeps its digits as a sum of the invariants of h.
-    const double less_one =
-        h.trace() + 0.5 * (h.trace() * h.trace() - (h * h).trace()) + h.determinant();
+    const double less_one = volume_change(h);
     if (!(1.0 + less_one >= out.least)) out.least = 1.0 + less_one;  // also not a number
     volume += points.volume[q];
     change += points.volume[q] * less_one;
   }
   if (!(out.least > 0.0)) return out;
-  // U = κ/4 (J² - 1 - 2 ln J) of the mean J
-  const double less_one = change / volume, mean = 1.0 + less_one, k = rubber.bulk_modulus;
-  const double square = less_one * (2.0 + less_one);  // J² - 1
-  const double pressure = 0.5 * k * square / mean, stiff = 0.5 * k * (1.0 + 1.0 / (mean * mean));
-  out.value = volume * 0.25 * k * (square - 2.0 * std::log1p(less_one));
+  const VolumeEnergy mean(change / volume, rubber.bulk_modulus);
+  out.value = volume * mean.energy;
   Eigen::Vector<double, 24> swell = Eigen::Vector<double, 24>::Zero();
   for (std::size_t q = 0; q < 8; ++q) {
     const double w = points.volume[q];
@@ -88,10 +129,10 @@ RubberEnergy rubber_hexahedron(const HexahedronPoints& points, const HexahedronC
     out.force += w * (slopes[q].transpose() * shear.stress);
     swell += w * (slopes[q].transpose() * v.slope);
     out.stiffness.noalias() +=
-        w * slopes[q].transpose() * (shear.modulus + pressure * v.bend) * slopes[q];
+        w * slopes[q].transpose() * (shear.modulus + mean.pressure * v.bend) * slopes[q];
   }
-  out.force += pressure * swell;
-  out.stiffness += stiff / volume * swell * swell.transpose();
+  out.force += mean.pressure * swell;
+  out.stiffness += mean.modulus / volume * swell * swell.transpose();
   return out;
 }
 

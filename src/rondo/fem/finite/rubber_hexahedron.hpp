@@ -17,6 +17,14 @@ struct RubberEnergy : Energy<8> {
 [[nodiscard]] RubberEnergy rubber_hexahedron(const HexahedronPoints& points,
                                              const HexahedronCorners& u, const Rubber& rubber);
 
+/// Energy and forces alone, for steps in time. Not numbers where a det F <= 0.
+struct RubberForce {
+  double energy = 0.0;        ///< [J]
+  HexahedronCorners force{};  ///< its gradient, by corners [N]
+};
+[[nodiscard]] RubberForce rubber_force(const HexahedronPoints& points, const HexahedronCorners& u,
+                                       const Rubber& rubber) noexcept;
+
 /// Largest principal stretch at the points, as above.
 [[nodiscard]] double largest_stretch(const HexahedronPoints& points, const HexahedronCorners& u);
 

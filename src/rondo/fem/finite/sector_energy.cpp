@@ -253,6 +253,16 @@ SweptFaces SectorEnergy::faces(double pressure) const {
   return faces;
 }
 
+SweptRubber SectorEnergy::rubber(std::span<const Vec3> u) const {
+  RONDO_DEMAND(u.size() == n_nodes(), u.size(), n_nodes());
+  SweptRubber rubber{{}, points_, {}, section_.rubbers, {u.begin(), u.end()}};
+  for (const SweptQuad& quad : section_.quads) {
+    rubber.corner.push_back(quad.corner);
+    rubber.rubber.push_back(quad.rubber);
+  }
+  return rubber;
+}
+
 std::vector<SectorEnergy::CordPlace> SectorEnergy::cords(std::size_t layer,
                                                          std::span<const Vec3> u) const {
   const std::vector<Vec3> x = places(u);

@@ -10,6 +10,7 @@
 #include "rondo/core/complex.hpp"
 #include "rondo/core/vec3.hpp"
 #include "rondo/fem/finite/swept_forces.hpp"
+#include "rondo/fem/finite/swept_rubber.hpp"
 #include "rondo/fem/finite/swept_section.hpp"
 #include "rondo/fem/solid/hexahedron.hpp"
 
@@ -54,6 +55,8 @@ class SectorEnergy {
 
   /// Cords, and the liner under a pressure.
   [[nodiscard]] SweptFaces faces(double pressure) const;
+  /// The rubber in a state. @param u (n) displacements [m]
+  [[nodiscard]] SweptRubber rubber(std::span<const Vec3> u) const;
 
   /// The cords at a point of a layer, deformed.
   struct CordPlace {

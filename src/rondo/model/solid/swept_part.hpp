@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Cords and air of a model that are not linear about its state (docs/tyre.md).
+/// @file  Forces of a wheel that are not linear about its state: cords, air, and rubber in a window
+/// of columns (docs/tyre.md).
 #pragma once
+#include <optional>
 #include <span>
+#include <vector>
 
+#include "rondo/fem/finite/rubber_remainder.hpp"
 #include "rondo/fem/finite/swept_forces.hpp"
 #include "rondo/model/model.hpp"
 
@@ -10,6 +14,30 @@ namespace rondo::dynamics {
 
 /// @pre model.solid->swept
 [[nodiscard]] fem::finite::SweptForces swept_forces(const Model& model);
+
+/// All forces of a wheel at a displacement from its state.
+class SweptWheel {
+ public:
+  /// The part must outlive it. @param x (n) places of the nodes in the state, sector by sector [m]
+  SweptWheel(const SweptPart& part, std::vector<Vec3> x);
+
+  /// Finds f(x + u) - f(x), on clamped nodes as well.
+  /// @param angle by which the wheel has turned [rad]
+  /// @return E(x + u) - E(x) - f(x)·u [J]
+  double find(std::span<const Vec3> u, double angle, std::span<Vec3> force) noexcept;
+  /// What the window's motion between the last two places gave to the rubber of columns that
+  /// entered, less what it took from those that left [J].
+  [[nodiscard]] double window_work() const noexcept { return window_work_; }
+
+ private:
+  double find_rubber(std::span<const Vec3> u, double angle, std::span<Vec3> force) noexcept;
+
+  const SweptPart& part_;
+  fem::finite::SweptForces faces_;
+  std::optional<fem::finite::RubberRemainder> rubber_;
+  std::vector<double> weight_, weight_before_, energy_, energy_before_;  ///< (n_sectors)
+  double window_work_ = 0.0;
+};
 
 /// What is stored at u more than in the state, in rubber, cords and air [J].
 [[nodiscard]] double stored_energy(const Model& model, std::span<const Vec3> u);

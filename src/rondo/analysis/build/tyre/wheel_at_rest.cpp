@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "rondo/analysis/build/solid/wheel_mesh.hpp"
 #include "rondo/core/contract.hpp"
@@ -37,15 +38,19 @@ std::vector<Vec3> pull_of(const mesh::Mesh& mesh, const WheelAtRest& rest, doubl
 }
 
 /// Cords and air apart from the rubber, whose tangent stays.
-dynamics::SweptPart swept_part(const InflatedWheel& wheel, const statics::Inflation& found,
-                               const mesh::Mesh& mesh) {
+dynamics::SweptPart swept_part(const InflationCase& c, const InflatedWheel& wheel,
+                               const statics::Inflation& found, const mesh::Mesh& mesh) {
   fem::finite::SweptSection rubber = wheel.energy().section();
   rubber.cords.clear();
   rubber.liner.clear();
   rubber.caps.clear();
   const fem::finite::SectorEnergy alone(std::move(rubber));
-  return {wheel.energy().faces(wheel.loads().sector.pressure),
-          fem::finite::tangent_sector(mesh, alone.state(found.u, {}))};
+  dynamics::SweptPart part{wheel.energy().faces(wheel.loads().sector.pressure),
+                           fem::finite::tangent_sector(mesh, alone.state(found.u, {}))};
+  if (c.nonlinear == TyreMotion::cords) return part;
+  part.rubber = wheel.energy().rubber(found.u);
+  part.window.half = c.nonlinear == TyreMotion::all ? 2.0 * std::numbers::pi : c.window;
+  return part;
 }
 
 /// K about the state with all cords as stiff as in tension; none: they are, or stay as they are.
@@ -70,7 +75,8 @@ WheelAtRest inflated(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>
   rest.sector = fem::finite::tangent_sector(mesh, found.state);
   rest.stiffest = stiffest(c, wheel, found, mesh);
   rest.frequencies_below = row_bound(rest.stiffest ? *rest.stiffest : rest.sector, rest.mass);
-  if (c.inflation->nonlinear == TyreMotion::cords) rest.swept = swept_part(wheel, found, mesh);
+  if (c.inflation->nonlinear != TyreMotion::linear)
+    rest.swept = swept_part(*c.inflation, wheel, found, mesh);
   mesh::move_nodes(mesh, in_all_sectors(mesh, found.u),
                    c.section ? c.section->mesh.contact : "tread");
   rest.load = pull_of(mesh, rest, wheel.loads().sector.spin_squared);
