@@ -112,6 +112,7 @@ void SteadyBody<D>::assemble(const Case& c) {
     mass = std::move(rest.mass);
     sector = std::move(rest.sector);
     inflation = std::move(rest.inflation);
+    swept = std::move(rest.swept);
   }
   dofs = D * fem::free_nodes(mesh).size();
   demand_range(c, *this);
@@ -143,6 +144,7 @@ void SteadyBody<D>::find_harmonics(const Case& c, int threads) {
                                             .load = load_of(c, *this),
                                             .threads = threads_for(c, *this, threads)});
   if constexpr (D == 2) window.emplace(window_of(c, slip_of(c)));
+  if (swept) harmonics->keep_factors();
   harmonics_wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
 }
 

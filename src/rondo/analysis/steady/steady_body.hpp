@@ -27,7 +27,8 @@ class SteadyBody final : public RolledBody {
                                                     statics::SlipDifference slip) const;
 
   fem::SectorBlocks<D> sector;
-  double radius = 0.0;  ///< outer, undeformed [m]
+  std::optional<dynamics::SweptPart> swept;  ///< what is not linear about the state, in space
+  double radius = 0.0;                       ///< outer, undeformed [m]
   std::optional<statics::RollingHarmonics<D>> harmonics;
   std::optional<statics::RollingWindow<D>> window;  ///< without pairs: to be copied
 };

@@ -18,6 +18,7 @@ struct SteadyFigures {
   double height, slip_ratio, resistance;  ///< [m], [1], [N]
   std::size_t pairs;
   bool solid;
+  const statics::FiniteEffort* finite;  ///< null: the forces are linear
 };
 void add_steady(const SteadyFigures& figures, Json& json);
 

@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "rondo/analysis/build/ground/contact_law.hpp"
+#include "rondo/analysis/steady/steady_remainder.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/mesh/deformed_boundary.hpp"
@@ -66,24 +68,49 @@ statics::RollingSolution SteadyState<D>::solved(statics::RollingWindow<D>& windo
   return found;
 }
 
+template <>
+void SteadyState<2>::solve_finite() {
+  RONDO_DEMAND(false);  // a plane body with rubber is refused
+}
+template <>
+void SteadyState<3>::solve_finite() {
+  const statics::RollingBody<3>& body = body_.harmonics->body();
+  SteadyRemainder remainder(body_.mesh, body_.sector, *body_.swept, body.candidates, body.samples,
+                            body.threads);
+  finite_ = statics::solve_finite_rolling(window_, drive_, remainder);
+  solution_ = finite_->solution;
+  for (int place = 0; place < body.samples; ++place)
+    energies_.push_back(remainder.energy(wrapped(sense() * place, body.samples)));
+}
+
 template <int D>
 void SteadyState<D>::solve() {
-  solution_ = solved(window_);
+  if (body_.swept)
+    solve_finite();
+  else
+    solution_ = solved(window_);
   if (solution_.end != statics::RollingEnd::solved) return;
   spectrum_ = statics::spectrum_of(window_, solution_);
-  power_ = statics::rolling_power(window_, solution_, spectrum_);
+  power_ = statics::rolling_power(window_, solution_, spectrum_,
+                                  finite_ ? finite_->remainder : Eigen::MatrixXd());
   u_ = window_.harmonics().fields(spectrum_, 0.0, false);
   if (case_.analysis.estimate_slip_error) estimate_slip_error();
 }
 
-/// By the same state with the other difference.
+/// By the same state with the other difference; of one that is not linear by its last linear
+/// problem.
 template <int D>
 void SteadyState<D>::estimate_slip_error() {
   using statics::SlipDifference;
   const bool is_upwind = slip_of(case_) == SlipDifference::upwind;
   statics::RollingWindow<D> other =
       body_.window_of(case_, is_upwind ? SlipDifference::bdf2 : SlipDifference::upwind);
-  const statics::RollingSolution found = solved(other);
+  if (finite_) {
+    other.take_response(window_.response());
+    other.include(window_.pairs());
+  }
+  const statics::RollingSolution found =
+      finite_ ? statics::solve_rolling_from(other, drive_, solution_) : solved(other);
   if (found.end != statics::RollingEnd::solved) return;
   slip_error_ = is_upwind ? slip_error_of(solution_.forces, found.forces)
                           : slip_error_of(found.forces, solution_.forces);
@@ -226,6 +253,7 @@ HistoryRecord SteadyState<D>::record(int place, const Snapshot& now) const {
     h.balance.strain += 0.5 * dot(u[i], ku[i]);
     h.balance.kinetic += 0.5 * body_.mass[i] * dot(v[i], v[i]);
   }
+  if (finite_) h.balance.strain = energies_[at(place)];
   return h;
 }
 

@@ -10,6 +10,7 @@
 #include "rondo/analysis/steady/slip_error.hpp"
 #include "rondo/analysis/steady/steady_body.hpp"
 #include "rondo/output/columns.hpp"
+#include "rondo/statics/steady/finite_rolling.hpp"
 
 namespace rondo::study {
 
@@ -55,6 +56,7 @@ class SteadyState final : public RolledState {
   [[nodiscard]] double slip_ratio() const noexcept;
   [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;
   [[nodiscard]] statics::RollingSolution solved(statics::RollingWindow<D>& window) const;
+  void solve_finite();
   void solve();
   void estimate_slip_error();
   void refuse() const;
@@ -87,6 +89,8 @@ class SteadyState final : public RolledState {
   statics::RollingDrive drive_;
   statics::RollingSolution solution_;
   Eigen::MatrixXcd spectrum_;
+  std::optional<statics::FiniteRolling> finite_;  ///< none: the motion is linear
+  std::vector<double> energies_;                  ///< (P) stored at each place, if it is not [J]
   statics::RollingPower power_;
   std::optional<SlipError> slip_error_;    ///< none: not asked for, or not found
   Eigen::MatrixXd u_, rate_;               ///< (D n_local, L); rates once a place is filled

@@ -95,6 +95,14 @@ template <int D>
 std::string SteadyState<D>::not_solved() const {
   const AnalysisCase& a = case_.analysis;
   const statics::RollingEffort& effort = solution_.effort;
+  if (finite_ && finite_->effort.turns > 1)
+    return fmt::format(
+        "the nonlinear forces (inflation.nonlinear) were not balanced: {} problems of contact "
+        "leave {:.2g} of the load (bound {:.0e}); {}a smaller analysis.load or less deflection, "
+        "fewer analysis.samples_per_sector, a smaller ground.friction, or inflation.nonlinear = "
+        "\"none\"",
+        finite_->effort.turns, finite_->effort.residual, statics::finite_rolling_bound,
+        drive_.friction > 0.0 ? "ground.friction = 0 for the load alone, " : "");
   const bool too_many = D == 3 && effort.spent();
   std::string found = "the iteration over sets of contacts did not end", remedy;
   if (too_many)
@@ -148,7 +156,7 @@ std::vector<std::string> SteadyState<D>::notes() const {
 template <int D>
 void SteadyState<D>::describe(Json& json) const {
   add_steady({case_, solution_, mean_, power_, slip_error_, height(), slip_ratio(), resistance(),
-              window_.pairs().size(), D == 3},
+              window_.pairs().size(), D == 3, finite_ ? &finite_->effort : nullptr},
              json);
 }
 

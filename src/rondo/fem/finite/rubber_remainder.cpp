@@ -45,19 +45,44 @@ RubberRemainder::RubberRemainder(SweptRubber rubber, std::vector<Complex> turn)
   for (Complex& axes : axes_) axes = axes * Complex{0.0, -1.0};
 }
 
+RubberRemainder::Placed RubberRemainder::placed(std::size_t e, std::size_t column,
+                                                std::span<const Vec3> u) const noexcept {
+  const std::size_t n = rubber_.u.size(), after = (column + 1) % axes_.size();
+  const Complex back = conj(axes_[column]);
+  Placed p;
+  for (std::size_t a = 0; a < 8; ++a) {
+    p.node[a] = (a < 4 ? column : after) * n + at(rubber_.corner[e][a % 4]);
+    p.more[a] = back * u[p.node[a]];
+    p.all[a] = state_[e].u[a] + p.more[a];
+  }
+  return p;
+}
+
+void RubberRemainder::tangent(std::span<const Vec3> u, std::span<const double> weight,
+                              const TakeBlock& take) const {
+  for (std::size_t j = 0; j < weight.size(); ++j) {
+    if (weight[j] == 0.0) continue;
+    const Eigen::Matrix3d turn = about_axle(axes_[j]);
+    for (std::size_t e = 0; e < state_.size(); ++e) {
+      const Placed p = placed(e, j, u);
+      const RubberEnergy now =
+          rubber_hexahedron(rubber_.points[e], p.all, rubber_.rubbers[at(rubber_.rubber[e])]);
+      if (!(now.least > 0.0)) continue;
+      const Eigen::Matrix<double, 24, 24> more = weight[j] * (now.stiffness - state_[e].stiffness);
+      for (std::size_t a = 0; a < 8; ++a)
+        for (std::size_t b = 0; b < 8; ++b)
+          take(p.node[a], p.node[b],
+               turn * more.block<3, 3>(static_cast<Index>(3 * a), static_cast<Index>(3 * b)) *
+                   turn.transpose());
+    }
+  }
+}
+
 /// @return the energy of the remainder
 double RubberRemainder::add_element(std::size_t e, std::size_t column, std::span<const Vec3> u,
                                     double weight, std::span<Vec3> force) const noexcept {
   const State& s = state_[e];
-  const std::size_t n = rubber_.u.size(), after = (column + 1) % axes_.size();
-  const Complex back = conj(axes_[column]);
-  std::array<std::size_t, 8> node;
-  HexahedronCorners more, all;
-  for (std::size_t a = 0; a < 8; ++a) {
-    node[a] = (a < 4 ? column : after) * n + at(rubber_.corner[e][a % 4]);
-    more[a] = back * u[node[a]];
-    all[a] = s.u[a] + more[a];
-  }
+  const auto [node, more, all] = placed(e, column, u);
   const RubberForce now =
       rubber_force(rubber_.points[e], all, rubber_.rubbers[at(rubber_.rubber[e])]);
   const Eigen::Vector<double, 24> way = flat(more), linear = s.stiffness * way;

@@ -4,11 +4,13 @@
 /// near the ground alone (docs/tyre.md).
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
 #include "rondo/core/complex.hpp"
 #include "rondo/fem/finite/swept_rubber.hpp"
+#include "rondo/fem/finite/take_block.hpp"
 
 namespace rondo::fem::finite {
 
@@ -24,8 +26,21 @@ class RubberRemainder {
   /// without that weight; else 0 [J]
   void add_to(std::span<const Vec3> u, std::span<const double> weight, std::span<Vec3> force,
               std::span<double> energy) const noexcept;
+  /// Hands on the weighted derivative of the remainders at u. An element that is turned inside out
+  /// has none.
+  void tangent(std::span<const Vec3> u, std::span<const double> weight,
+               const TakeBlock& take) const;
 
  private:
+  /// An element in its column: nodes of its corners, and their displacements from the state and
+  /// from the undeformed shape, in the frame of the sector.
+  struct Placed {
+    std::array<std::size_t, 8> node;
+    HexahedronCorners more, all;
+  };
+  [[nodiscard]] Placed placed(std::size_t e, std::size_t column,
+                              std::span<const Vec3> u) const noexcept;
+
   struct State {
     double energy = 0.0;
     Eigen::Vector<double, 24> force;

@@ -18,14 +18,41 @@ SweptForces::SweptForces(SweptFaces faces, std::vector<Vec3> x, int n_sectors)
   energy_of_state_ = find(rest, of_state_);
 }
 
+std::array<std::size_t, 4> SweptForces::nodes(const std::array<int, 2>& line,
+                                              std::size_t column) const noexcept {
+  const std::size_t n = x_.size() / n_sectors_, here = column * n,
+                    next = (column + 1) % n_sectors_ * n;
+  return {here + at(line[0]), here + at(line[1]), next + at(line[1]), next + at(line[0])};
+}
+
+void SweptForces::tangent(std::span<const Vec3> u, std::span<const double> weight,
+                          const TakeBlock& take) const {
+  for (std::size_t j = 0; j < n_sectors_; ++j) {
+    if (weight[j] == 0.0) continue;
+    const auto add = [&](const std::array<int, 2>& line, double share, auto&& energy_of) {
+      const std::array<std::size_t, 4> node = nodes(line, j);
+      FaceCorners x;
+      for (std::size_t a = 0; a < 4; ++a) x[a] = x_[node[a]] + u[node[a]];
+      const Energy<4> of = energy_of(x);
+      for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = 0; b < 4; ++b)
+          take(node[a], node[b],
+               share * of.stiffness.block<3, 3>(static_cast<Eigen::Index>(3 * a),
+                                                static_cast<Eigen::Index>(3 * b)));
+    };
+    for (const SweptCords& c : faces_.cords)
+      for (std::size_t e = 0; e < c.lines.size(); ++e)
+        add(c.lines[e], 1.0,
+            [&](const FaceCorners& x) { return cord_face(c.points[e], x, c.law); });
+    for (const auto& line : faces_.liner) add(line, -faces_.pressure, cone_volume);
+  }
+}
+
 double SweptForces::find(std::span<const Vec3> u, std::span<Vec3> force) const noexcept {
-  const std::size_t n = x_.size() / n_sectors_;
   double energy = 0.0;
   for (std::size_t j = 0; j < n_sectors_; ++j) {
-    const std::size_t here = j * n, next = (j + 1) % n_sectors_ * n;
     const auto add = [&](const std::array<int, 2>& line, double share, auto&& force_of) {
-      const std::array<std::size_t, 4> node{here + at(line[0]), here + at(line[1]),
-                                            next + at(line[1]), next + at(line[0])};
+      const std::array<std::size_t, 4> node = nodes(line, j);
       FaceCorners x;
       for (std::size_t a = 0; a < 4; ++a) x[a] = x_[node[a]] + u[node[a]];
       const FaceForce f = force_of(x);

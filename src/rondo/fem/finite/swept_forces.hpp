@@ -9,6 +9,7 @@
 #include "rondo/core/vec3.hpp"
 #include "rondo/fem/finite/cord_face.hpp"
 #include "rondo/fem/finite/swept_section.hpp"
+#include "rondo/fem/finite/take_block.hpp"
 
 namespace rondo::fem::finite {
 
@@ -34,8 +35,14 @@ class SweptForces {
   /// Adds f(x + u) - f(x), the gradient of the energy, to `force`.
   /// @return E(x + u) - E(x) - f(x)·u, of cords and air [J]
   double add_to(std::span<const Vec3> u, std::span<Vec3> force) const noexcept;
+  /// Hands on the stiffness at x + u of the columns that have a weight, without that weight.
+  void tangent(std::span<const Vec3> u, std::span<const double> weight,
+               const TakeBlock& take) const;
 
  private:
+  /// The nodes of a line's face in a column.
+  [[nodiscard]] std::array<std::size_t, 4> nodes(const std::array<int, 2>& line,
+                                                 std::size_t column) const noexcept;
   /// @return the energy
   double find(std::span<const Vec3> u, std::span<Vec3> force) const noexcept;
 

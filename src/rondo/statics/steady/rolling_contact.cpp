@@ -78,19 +78,13 @@ RollingSolution nothing(const RollingProblem<D>& problem, const RollingPoint& po
   return s;
 }
 
-}  // namespace
-
+/// From a state of the window's pairs on, or of none.
 template <int D>
-RollingSolution solve_rolling(RollingWindow<D>& window, const RollingDrive& drive,
-                              const RollingStatuses& from) {
+RollingSolution grow(RollingWindow<D>& window, const RollingDrive& drive, RollingState state) {
   const OneBlasThread one_thread;
   const double radius = window.lowest();
   RollingSolution s;
   s.slip_angle = drive.slip_angle;
-  RollingState state;
-  state.point = {{}, drive.load ? radius * (1.0 - 1e-3) : drive.height, drive.speed};
-  state.statuses = from;
-  window.include_below(state.point.height);
   int unsolved = 0;
   for (int round = 0; round < most_rounds; ++round) {
     const RollingProblem<D>& problem = window.problem();
@@ -123,9 +117,35 @@ RollingSolution solve_rolling(RollingWindow<D>& window, const RollingDrive& driv
   return nothing(window.problem(), state.point, std::move(s));
 }
 
+}  // namespace
+
+template <int D>
+RollingSolution solve_rolling(RollingWindow<D>& window, const RollingDrive& drive,
+                              const RollingStatuses& from) {
+  RollingState state;
+  const double height = drive.load ? window.lowest() * (1.0 - 1e-3) : drive.height;
+  state.point = {{}, height, drive.speed};
+  state.statuses = from;
+  window.include_below(height);
+  return grow(window, drive, std::move(state));
+}
+
+template <int D>
+RollingSolution solve_rolling_from(RollingWindow<D>& window, const RollingDrive& drive,
+                                   const RollingSolution& near) {
+  if (near.end != RollingEnd::solved) return solve_rolling(window, drive);
+  RollingState state;
+  state.point = {near.force, drive.load ? near.height : drive.height,
+                 drive.traction || drive.torque ? near.speed : drive.speed};
+  state.residual = near.residual;
+  return grow(window, drive, std::move(state));
+}
+
 template RollingSolution solve_rolling(RollingWindow<2>&, const RollingDrive&,
                                        const RollingStatuses&);
 template RollingSolution solve_rolling(RollingWindow<3>&, const RollingDrive&,
                                        const RollingStatuses&);
+template RollingSolution solve_rolling_from(RollingWindow<3>&, const RollingDrive&,
+                                            const RollingSolution&);
 
 }  // namespace rondo::statics

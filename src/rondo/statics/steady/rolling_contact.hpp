@@ -38,6 +38,13 @@ template <int D>
 [[nodiscard]] RollingSolution solve_rolling(RollingWindow<D>& window, const RollingDrive& drive,
                                             const RollingStatuses& from = {});
 
+/// The same, in space, from a solution of the same window under other forces: what touched there is
+/// near what touches now.
+template <int D>
+[[nodiscard]] RollingSolution solve_rolling_from(RollingWindow<D>& window,
+                                                 const RollingDrive& drive,
+                                                 const RollingSolution& near);
+
 /// Largest law residual over the largest force, each pair's own scaled by its compliance, from the
 /// window's rows alone: independent of how the forces were found.
 template <int D>

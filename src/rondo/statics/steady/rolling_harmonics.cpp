@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
@@ -179,9 +180,10 @@ void RollingHarmonics<D>::follow_candidates(int k, const Eigen::VectorXcd& surfa
 template <int D>
 void RollingHarmonics<D>::find_bases() {
   const Eigen::VectorXcd load = weight_load(false);
-  constant_ = solve(layers_, order(0), constant_load());
-  if constexpr (D == 3) leaning_ = solve(layers_, order(0), weight_load(true));
-  turning_ = solve(layers_, order(1), load);
+  const RollingFactors<D> alike(layers_, order(0));
+  constant_ = alike.solve(layers_, constant_load());
+  if constexpr (D == 3) leaning_ = alike.solve(layers_, weight_load(true));
+  turning_ = RollingFactors<D>(layers_, order(1)).solve(layers_, load);
   const Complexes factor = -2.0 * i * static_cast<double>(body_.stiffness.n_sectors);
   weight_torque_ = (factor * load.dot(turning_)).real();
   for (Index c = 0; c < surface_[1].cols(); ++c) {
@@ -212,28 +214,73 @@ NodeVector<D> RollingHarmonics<D>::displacement(std::size_t a, int sample,
   return u;
 }
 
+/// (L/2 + 1, rows) of the rows of a field.
+template <int D>
+typename RollingHarmonics<D>::Block RollingHarmonics<D>::transformed(
+    const Eigen::MatrixXd& field) const {
+  const auto n = static_cast<int>(field.rows()), half = turn_ / 2 + 1;
+  RONDO_DEMAND(field.cols() == turn_, field.cols(), turn_);
+  Eigen::MatrixXd in = field.transpose();  // a column a component
+  Block out(half, n);
+  transform_once([&] {
+    return fftw_plan_many_dft_r2c(1, &turn_, n, in.data(), nullptr, 1, turn_, raw(out.data()),
+                                  nullptr, 1, half, FFTW_ESTIMATE);
+  });
+  return out / static_cast<double>(turn_);
+}
+
 template <int D>
 typename RollingHarmonics<D>::Block RollingHarmonics<D>::spectrum(const Eigen::MatrixXd& force,
                                                                   RollingGravity g) const {
-  const std::size_t length = at(turn_), half = length / 2 + 1, n = D * n_candidates();
-  RONDO_DEMAND(at(force.rows()) == n && at(force.cols()) == length, force.rows(), force.cols());
+  RONDO_DEMAND(at(force.rows()) == D * n_candidates(), force.rows(), n_candidates());
   const OneBlasThread one_thread;
-  Eigen::MatrixXd in = force.transpose();  // a column a component
-  Block forces(static_cast<Index>(half), static_cast<Index>(n));
-  transform_once([&] {
-    return fftw_plan_many_dft_r2c(1, &turn_, static_cast<int>(n), in.data(), nullptr, 1, turn_,
-                                  raw(forces.data()), nullptr, 1, static_cast<int>(half),
-                                  FFTW_ESTIMATE);
-  });
-  Block u = Block::Zero(n_rows(), static_cast<Index>(half));
+  const Block forces = transformed(force);
+  Block u = Block::Zero(n_rows(), forces.rows());
 #pragma omp parallel for num_threads(body_.threads) schedule(static)
   for (Index k = 0; k < u.cols(); ++k)
-    follow_candidates(static_cast<int>(k),
-                      surface_[at(k)] * forces.row(k).transpose() / static_cast<double>(turn_),
-                      u.col(k));
+    follow_candidates(static_cast<int>(k), surface_[at(k)] * forces.row(k).transpose(), u.col(k));
   u.col(0) += constant_;
   if constexpr (D == 3) u.col(0) += g.axial * leaning_;
   u.col(1) += g.down * turning_;
+  return u;
+}
+
+template <int D>
+typename RollingHarmonics<D>::Block RollingHarmonics<D>::on_candidates(
+    const Block& spectrum) const {
+  Block rows(static_cast<Index>(D * n_candidates()), spectrum.cols());
+  for (std::size_t a = 0; a < n_candidates(); ++a)
+    rows.template middleRows<D>(static_cast<Index>(D * a)) =
+        spectrum.template middleRows<D>(D * body_.candidates[a]);
+  return rows;
+}
+
+template <int D>
+void RollingHarmonics<D>::keep_factors() {
+  if (!factors_.empty()) return;
+  const OneBlasThread one_thread;
+  std::vector<std::optional<RollingFactors<D>>> made(at(turn_) / 2 + 1);
+#pragma omp parallel for num_threads(body_.threads) schedule(static)
+  for (std::size_t k = 0; k < made.size(); ++k)
+    made[k].emplace(layers_, order(static_cast<int>(k)));
+  for (auto& factors : made) factors_.push_back(std::move(*factors));
+}
+
+template <int D>
+std::size_t RollingHarmonics<D>::factors_memory() const noexcept {
+  return (at(turn_) / 2 + 1) * factors_size(layers_) * sizeof(Complexes);
+}
+
+template <int D>
+typename RollingHarmonics<D>::Block RollingHarmonics<D>::response(
+    const Eigen::MatrixXd& force) const {
+  RONDO_DEMAND(!factors_.empty() && force.rows() == n_rows(), force.rows(), n_rows());
+  const OneBlasThread one_thread;
+  const Block forces = transformed(force);
+  Block u(n_rows(), forces.rows());
+#pragma omp parallel for num_threads(body_.threads) schedule(static)
+  for (Index k = 0; k < u.cols(); ++k)
+    u.col(k) = factors_[at(k)].solve(layers_, forces.row(k).transpose());
   return u;
 }
 

@@ -93,6 +93,14 @@ class RollingHarmonics {
   /// U_k of all rows under forces on the candidates: (D n_local, L/2 + 1), k = 0 … L/2 [m].
   /// @param force (D C, L) on each candidate at each sample, in the frame of its sector [N]
   [[nodiscard]] Block spectrum(const Eigen::MatrixXd& force, RollingGravity gravity) const;
+  /// The rows of the candidates, (D C, L/2 + 1).
+  [[nodiscard]] Block on_candidates(const Block& spectrum) const;
+  /// Makes response() ready: factors of all harmonics, factors_memory() bytes.
+  void keep_factors();
+  [[nodiscard]] std::size_t factors_memory() const noexcept;
+  /// U_k of all rows under forces on all rows, with neither spin nor weight: as spectrum() has it.
+  /// @param force (D n_local, L) in the frames of the sectors [N]. @pre keep_factors()
+  [[nodiscard]] Block response(const Eigen::MatrixXd& force) const;
   /// U(ψ_m + χ) of rows of a spectrum at all samples: (rows, L) [m]. @param rate the derivative by
   /// ψ instead
   [[nodiscard]] Eigen::MatrixXd fields(Eigen::Ref<const Block> spectrum, double chi,
@@ -117,6 +125,7 @@ class RollingHarmonics {
   [[nodiscard]] Eigen::Index n_rows() const noexcept {
     return static_cast<Eigen::Index>(D * body_.stiffness.n_local());
   }
+  [[nodiscard]] Block transformed(const Eigen::MatrixXd& field) const;
   [[nodiscard]] Eigen::VectorXcd constant_load() const;
   [[nodiscard]] Eigen::VectorXcd weight_load(bool axial) const;
   /// How the entries of a compliance at all harmonics, or samples, lie: in the plane, where there
@@ -138,8 +147,9 @@ class RollingHarmonics {
   RollingLayers<D> layers_;                  ///< with masses as moved
   /// (L/2 + 1, transfer_size); empty: they are too large, and are made anew where they are needed
   std::vector<std::complex<double>> transfers_;
-  std::vector<Block> surface_;   ///< (L/2 + 1) of (D C, D C)
-  std::vector<double> history_;  ///< (L, D C, D C) real compliances, by strides()
+  std::vector<RollingFactors<D>> factors_;  ///< (L/2 + 1), if they are kept
+  std::vector<Block> surface_;              ///< (L/2 + 1) of (D C, D C)
+  std::vector<double> history_;             ///< (L, D C, D C) real compliances, by strides()
   double weight_torque_ = 0.0;
   std::vector<std::complex<double>> weight_by_force_;  ///< (D C) of harmonic 1: its real part
   /// (D n_local) of what nothing touches: U_0 of spin and loads [m], U_0 and U_1 of weights of an

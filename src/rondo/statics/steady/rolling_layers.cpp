@@ -115,6 +115,21 @@ struct Harmonic {
           some.template segment<D>(static_cast<Index>(D * a));
   }
 
+  /// Of the forces on a layer, what is left once the layer before has moved.
+  void take_above(std::size_t l, const Eigen::VectorXcd& u, Eigen::VectorXcd& force) const {
+    for (const RollingEntry<D>& e : layers[l].up)
+      force.segment<D>(D * layers[l].rows[at(e.row)]) -=
+          elastic() * order.turns[e.shift] *
+          (e.block * u.segment<D>(D * layers[l - 1].rows[at(e.column)]));
+  }
+  /// And once the one behind it has.
+  void take_below(std::size_t l, const Eigen::VectorXcd& u, Eigen::VectorXcd& force) const {
+    for (const RollingEntry<D>& e : layers[l + 1].up)
+      force.segment<D>(D * layers[l].rows[at(e.column)]) -=
+          elastic() * std::conj(order.turns[e.shift]) *
+          (e.block.transpose() * u.segment<D>(D * layers[l + 1].rows[at(e.row)]));
+  }
+
   [[nodiscard]] Eigen::MatrixXcd eliminate(std::span<Complexes> transfers) const {
     Complexes* to = transfers.data();
     return last([&](std::size_t, const Lu&, const Block& transfer) {
@@ -132,25 +147,6 @@ struct Harmonic {
       put(layers[l], here, u);
       next = here;
     }
-  }
-  /// From each layer to the next what acts on it; then back.
-  [[nodiscard]] Eigen::VectorXcd solve(const Eigen::VectorXcd& force) const {
-    std::vector<Vector> alone{part(layers[0], force)};
-    std::vector<Block> transfers;
-    const Lu end = last([&](std::size_t l, const Lu& lu, const Block& transfer) {
-      transfers.push_back(transfer);
-      alone[l] = lu.solved(alone[l]);
-      alone.push_back(part(layers[l + 1], force));
-      alone[l + 1] -= damped(up(l + 1)) * alone[l];
-    });
-    Eigen::VectorXcd u(force.size());
-    Vector next = end.solved(alone.back());
-    put(layers.back(), next, u);
-    for (std::size_t l = layers.size() - 1; l-- > 0;) {
-      next = (alone[l] + transfers[l] * next).eval();
-      put(layers[l], next, u);
-    }
-    return u;
   }
 };
 
@@ -217,9 +213,34 @@ void follow(const RollingLayers<D>& layers, std::span<const Complexes> transfers
 }
 
 template <int D>
-Eigen::VectorXcd solve(const RollingLayers<D>& layers, const RollingOrder& order,
-                       const Eigen::VectorXcd& force) {
-  return Harmonic<D, Eigen::Dynamic>{layers, order}.solve(force);
+RollingFactors<D>::RollingFactors(const RollingLayers<D>& layers, const RollingOrder& order)
+    : order_(order) {
+  factors_.push_back(Harmonic<D, Eigen::Dynamic>{layers, order_}.last(
+      [&](std::size_t, const auto& lu, const auto&) { factors_.push_back(lu); }));
+}
+
+/// From each layer to the next what acts on it; then back.
+template <int D>
+Eigen::VectorXcd RollingFactors<D>::solve(const RollingLayers<D>& layers,
+                                          const Eigen::VectorXcd& force) const {
+  const Harmonic<D, Eigen::Dynamic> of{layers, order_};
+  Eigen::VectorXcd left = force, u(force.size());
+  for (std::size_t l = 0; l < layers.size(); ++l) {
+    of.put(layers[l], factors_[l].solved(of.part(layers[l], left)).col(0), u);
+    if (l + 1 < layers.size()) of.take_above(l + 1, u, left);
+  }
+  for (std::size_t l = layers.size() - 1; l-- > 0;) {
+    of.take_below(l, u, left);
+    of.put(layers[l], factors_[l].solved(of.part(layers[l], left)).col(0), u);
+  }
+  return u;
+}
+
+template <int D>
+std::size_t factors_size(const RollingLayers<D>& layers) {
+  Index size = 0;
+  for (const RollingLayer<D>& layer : layers) size += layer.size() * layer.size();
+  return static_cast<std::size_t>(size);
 }
 
 /// Re xᴴ (e^{iθ} B) y is, with B real, that of xᴴ B y turned by θ.
@@ -259,8 +280,8 @@ template RollingLayers<2> rolling_layers(const fem::SectorBlocks<2>&, std::span<
 template std::size_t transfer_size(const RollingLayers<2>&);
 template Eigen::MatrixXcd eliminate(const RollingLayers<2>&, const RollingOrder&,
                                     std::span<Complexes>);
-template Eigen::VectorXcd solve(const RollingLayers<2>&, const RollingOrder&,
-                                const Eigen::VectorXcd&);
+template class RollingFactors<2>;
+template std::size_t factors_size(const RollingLayers<2>&);
 template void follow(const RollingLayers<2>&, std::span<const Complexes>,
                      Eigen::Ref<Eigen::VectorXcd>);
 template RollingNorms norms_of(const RollingLayers<2>&, const RollingOrder&,
@@ -270,8 +291,8 @@ template RollingLayers<3> rolling_layers(const fem::SectorBlocks<3>&, std::span<
 template std::size_t transfer_size(const RollingLayers<3>&);
 template Eigen::MatrixXcd eliminate(const RollingLayers<3>&, const RollingOrder&,
                                     std::span<Complexes>);
-template Eigen::VectorXcd solve(const RollingLayers<3>&, const RollingOrder&,
-                                const Eigen::VectorXcd&);
+template class RollingFactors<3>;
+template std::size_t factors_size(const RollingLayers<3>&);
 template void follow(const RollingLayers<3>&, std::span<const Complexes>,
                      Eigen::Ref<Eigen::VectorXcd>);
 template RollingNorms norms_of(const RollingLayers<3>&, const RollingOrder&,

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/statics/steady/complex_lu.hpp"
 #include "rondo/statics/steady/node_vector.hpp"
 
 namespace rondo::statics {
@@ -67,10 +68,23 @@ template <int D>
 [[nodiscard]] Eigen::MatrixXcd eliminate(const RollingLayers<D>& layers, const RollingOrder& order,
                                          std::span<std::complex<double>> transfers);
 
-/// Displacement of all rows by forces on all rows. @param force (D n_local) [N]
+/// Factors of one harmonic, for forces on all rows.
 template <int D>
-[[nodiscard]] Eigen::VectorXcd solve(const RollingLayers<D>& layers, const RollingOrder& order,
-                                     const Eigen::VectorXcd& force);
+class RollingFactors {
+ public:
+  RollingFactors(const RollingLayers<D>& layers, const RollingOrder& order);
+
+  /// Displacement of all rows. @param layers those of the factors @param force (D n_local) [N]
+  [[nodiscard]] Eigen::VectorXcd solve(const RollingLayers<D>& layers,
+                                       const Eigen::VectorXcd& force) const;
+
+ private:
+  RollingOrder order_;
+  std::vector<ComplexLu<D, Eigen::Dynamic>> factors_;  ///< of each layer, those before it gone
+};
+/// Numbers of the factors of a harmonic.
+template <int D>
+[[nodiscard]] std::size_t factors_size(const RollingLayers<D>& layers);
 
 /// Displacement of all rows, once those of the last layer are there. @param u (D n_local)
 template <int D>

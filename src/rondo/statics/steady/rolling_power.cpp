@@ -12,16 +12,6 @@ using Eigen::Index;
 /// A scheme below this share of load times speed is round-off.
 constexpr double round_off = 1e-12;
 
-/// Rows of the candidates of a spectrum.
-template <int D>
-Eigen::MatrixXcd surface_of(const RollingHarmonics<D>& h, const Eigen::MatrixXcd& spectrum) {
-  Eigen::MatrixXcd rows(static_cast<Index>(D * h.n_candidates()), spectrum.cols());
-  for (std::size_t a = 0; a < h.n_candidates(); ++a)
-    rows.middleRows<D>(static_cast<Index>(D * a)) =
-        spectrum.middleRows<D>(D * h.body().candidates[a]);
-  return rows;
-}
-
 }  // namespace
 
 void find_scheme_shares(double carried, RollingPower& p) noexcept {
@@ -42,15 +32,17 @@ Eigen::MatrixXcd spectrum_of(const RollingWindow<D>& w, const RollingSolution& s
                       static_cast<Index>(h.wrapped(p.sample))) =
         w.to_ground(p.sample).transpose() * s.force.segment<D>(static_cast<Index>(D * j));
   }
-  return h.spectrum(force, w.gravity());
+  Eigen::MatrixXcd spectrum = h.spectrum(force, w.gravity());
+  if (w.response().size() > 0) spectrum += w.response();
+  return spectrum;
 }
 
 template <int D>
 RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
-                           const Eigen::MatrixXcd& spectrum) {
+                           const Eigen::MatrixXcd& spectrum, const Eigen::MatrixXd& remainder) {
   const RollingHarmonics<D>& h = w.harmonics();
   const double spin = h.body().spin, pass = h.body().samples;
-  const Eigen::MatrixXcd surface = surface_of(h, spectrum);
+  const Eigen::MatrixXcd surface = h.on_candidates(spectrum);
   const Eigen::MatrixXd u = h.fields(surface, 0.0, false), rate = h.fields(surface, 0.0, true);
   const auto damped = h.damped(spectrum);
   const double ahead = s.speed * std::cos(s.slip_angle), aside = s.speed * std::sin(s.slip_angle);
@@ -78,8 +70,11 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
     power.friction -=
         force.template tail<D - 1>().dot(s.gap_and_slip.segment<D - 1>(row + 1)) / pass;
   }
-  power.scheme = of_field + power.friction;
-  const double left = power.drive + power.mass + power.stiffness - power.weight - of_field;
+  double inner = 0.0;
+  if (remainder.size() > 0)
+    inner = spin / pass * h.fields(spectrum, 0.0, true).cwiseProduct(remainder).sum();
+  power.scheme = of_field + power.friction - inner;
+  const double left = power.drive + power.mass + power.stiffness - power.weight - of_field + inner;
   const double largest =
       std::max({std::abs(ahead * s.forces.heading) + std::abs(aside * s.forces.lateral),
                 std::abs(spin * torque), power.mass, power.stiffness, std::abs(power.friction),
@@ -93,8 +88,8 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
 template Eigen::MatrixXcd spectrum_of(const RollingWindow<2>&, const RollingSolution&);
 template Eigen::MatrixXcd spectrum_of(const RollingWindow<3>&, const RollingSolution&);
 template RollingPower rolling_power(const RollingWindow<2>&, const RollingSolution&,
-                                    const Eigen::MatrixXcd&);
+                                    const Eigen::MatrixXcd&, const Eigen::MatrixXd&);
 template RollingPower rolling_power(const RollingWindow<3>&, const RollingSolution&,
-                                    const Eigen::MatrixXcd&);
+                                    const Eigen::MatrixXcd&, const Eigen::MatrixXd&);
 
 }  // namespace rondo::statics

@@ -37,9 +37,12 @@ template <int D>
 [[nodiscard]] Eigen::MatrixXcd spectrum_of(const RollingWindow<D>& window,
                                            const RollingSolution& solution);
 
+/// @param remainder (D n_local, L) of inner forces beyond K u [N]; empty: none. Their power along
+/// the deformation, which is 0 for a field that is resolved, is one of the scheme.
 template <int D>
 [[nodiscard]] RollingPower rolling_power(const RollingWindow<D>& window,
                                          const RollingSolution& solution,
-                                         const Eigen::MatrixXcd& spectrum);
+                                         const Eigen::MatrixXcd& spectrum,
+                                         const Eigen::MatrixXd& remainder = {});
 
 }  // namespace rondo::statics

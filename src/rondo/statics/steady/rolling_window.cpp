@@ -85,12 +85,20 @@ typename RollingWindow<D>::Kernel RollingWindow<D>::kernel(const RollingPair& of
       *kernels_)[(of.candidate * n + by.candidate) * frames_.size() + harmonics_.wrapped(ahead)];
 }
 
+/// Without contact, in the frame of the pair's sector.
+template <int D>
+NodeVector<D> RollingWindow<D>::free_displacement(const RollingPair& p) const noexcept {
+  NodeVector<D> u = harmonics_.displacement(p.candidate, p.sample, gravity_);
+  if (more_.size() > 0)
+    u += more_.block<D, 1>(static_cast<Index>(D * p.candidate),
+                           static_cast<Index>(harmonics_.wrapped(p.sample)));
+  return u;
+}
+
 /// From the center, along n, t1 and t2.
 template <int D>
 NodeVector<D> RollingWindow<D>::free_place(const RollingPair& p) const noexcept {
-  const NodeVector<D> x =
-      harmonics_.reference(p.candidate) + harmonics_.displacement(p.candidate, p.sample, gravity_);
-  return to_ground(p.sample) * x;
+  return to_ground(p.sample) * (harmonics_.reference(p.candidate) + free_displacement(p));
 }
 
 /// What of it is along n has no meaning.
@@ -102,11 +110,10 @@ NodeVector<D> RollingWindow<D>::free_way(const RollingPair& p) const noexcept {
     if constexpr (D == 2)
       way += weights_[j] * free_place({p.candidate, sample});
     else
-      way += weights_[j] * harmonics_.displacement(p.candidate, sample, gravity_);
+      way += weights_[j] * free_displacement({p.candidate, sample});
   }
   if constexpr (D == 2) return way;
-  const NodeVector<D> x =
-      harmonics_.reference(p.candidate) + harmonics_.displacement(p.candidate, p.sample, gravity_);
+  const NodeVector<D> x = harmonics_.reference(p.candidate) + free_displacement(p);
   return to_ground(p.sample) * (way + turn_ * quarter_turned<D>(x));
 }
 
@@ -114,10 +121,21 @@ template <int D>
 double RollingWindow<D>::lowest() const noexcept {
   double least = 0.0;
   for (std::size_t a = 0; a < harmonics_.n_candidates(); ++a) {
-    const NodeVector<D> place = free_place({a, 0});
+    const NodeVector<D> place =
+        to_ground(0) * (harmonics_.reference(a) + harmonics_.displacement(a, 0, gravity_));
     least = std::max(least, D == 2 ? norm(Vec2{place[0], place[1]}) : -place[0]);
   }
   return least;
+}
+
+/// The torque of the weight is minus its power over s.
+template <int D>
+void RollingWindow<D>::take_response(Eigen::MatrixXcd spectrum) {
+  response_ = std::move(spectrum);
+  more_ = harmonics_.fields(harmonics_.on_candidates(response_), 0.0, false);
+  problem_.base_weight = gravity_.down * gravity_.down * harmonics_.weight_torque() -
+                         harmonics_.weight(response_, gravity_) / harmonics_.body().spin;
+  for (Index p = 0; p < std::ssize(problem_.pairs); ++p) fill_base(p);
 }
 
 template <int D>

@@ -37,11 +37,18 @@ class RollingWindow {
   /// Includes pairs whose undeformed place is no higher than `height` below the center, and some
   /// beside them.
   void include_below(double height);
+  /// Includes those that are not there yet.
+  void include(const std::vector<RollingPair>& pairs);
   /// Includes pairs beside those there are, that the forces leave in the ground.
   /// @param force (D pairs) [N] @return whether there were any
   bool include_touching(double height, const Eigen::VectorXd& force);
+  /// What forces on all rows make of the body besides spin, weight and contact: all gaps and ways
+  /// change by it. @param spectrum (D n_local, L/2 + 1) by RollingHarmonics::response() [m]
+  void take_response(Eigen::MatrixXcd spectrum);
+  /// Empty: nothing was taken.
+  [[nodiscard]] const Eigen::MatrixXcd& response() const noexcept { return response_; }
   /// Distance of the lowest contact node from the center where nothing touches, as spin, gravity
-  /// and loads leave it; in space its depth below the center [m].
+  /// and loads alone leave it; in space its depth below the center [m].
   [[nodiscard]] double lowest() const noexcept;
 
   /// e^{i 2π sample/L}: of the frame of a sector that has come so far from where it is in X.
@@ -62,11 +69,11 @@ class RollingWindow {
   [[nodiscard]] Kernel kernel(std::size_t a, std::size_t b, int ahead) const noexcept;
   [[nodiscard]] Kernel kernel(const RollingPair& of, const RollingPair& by) const noexcept;
   void find_kernels();
+  [[nodiscard]] NodeVector<D> free_displacement(const RollingPair& p) const noexcept;
   [[nodiscard]] NodeVector<D> free_place(const RollingPair& p) const noexcept;
   [[nodiscard]] NodeVector<D> free_way(const RollingPair& p) const noexcept;
   void fill_base(Eigen::Index pair);
   void fill_column(Eigen::Index of, Eigen::Index from);
-  void include(const std::vector<RollingPair>& pairs);
 
   const RollingHarmonics<D>& harmonics_;
   RollingGravity gravity_;
@@ -76,6 +83,8 @@ class RollingWindow {
   double turn_;                           ///< s of a sample's time                          [rad]
   /// (C, C, L) in the plane, where they are few; the same for copies
   std::shared_ptr<const std::vector<Kernel>> kernels_;
+  Eigen::MatrixXcd response_;
+  Eigen::MatrixXd more_;                     ///< (D C, L) of it, on the candidates; empty: none [m]
   std::vector<std::vector<char>> included_;  ///< (C, L)
   RollingProblem<D> problem_;
 };
