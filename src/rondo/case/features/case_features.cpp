@@ -54,6 +54,11 @@ constexpr std::array rows{
     CaseFeature{
         has::nonlinear_cords, "inflation.nonlinear", "inflation.nonlinear = \"none\"",
         [](const Case& c) { return c.inflation && c.inflation->nonlinear != TyreMotion::linear; }},
+    CaseFeature{has::nonlinear_rubber, "inflation.nonlinear", "inflation.nonlinear = \"cords\"",
+                [](const Case& c) {
+                  return c.inflation && (c.inflation->nonlinear == TyreMotion::window ||
+                                         c.inflation->nonlinear == TyreMotion::all);
+                }},
     CaseFeature{has::own_material, "material.model", "material.model = \"linear\"",
                 [](const Case&) { return false; }},
     CaseFeature{has::implicit, "solver.implicit[0]", "no [[solver.implicit]]",

@@ -12,7 +12,7 @@ RubberWork::RubberWork(const Model& model, const State& start) : model_(model) {
   RONDO_DEMAND(start.force.size() == model.n_nodes() && start.v_next.size() == model.n_nodes(),
                start.force.size(), start.v_next.size(), model.n_nodes());
   if (model.solid)
-    begin<Vec3>(stored_energy(model, start.u), start);
+    begin<Vec3>(stored_energy(model, start.u, start.frame.angle), start);
   else
     begin<Vec2>(make_internal_force(model, start.u, start.poses)->material().stored_energy, start);
 }
