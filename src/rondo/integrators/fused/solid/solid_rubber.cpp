@@ -173,6 +173,7 @@ SolidWindow::SolidWindow(const SolidRubberPlan& plan, const RingLayout& layout,
       layout_(layout),
       range_(range),
       own_packs_((range.columns + lanes - 1) / lanes),
+      alone_(layout.cut.halo == Halo::ring),
       force_(static_cast<std::size_t>(RingLayout::lead + 6 * layout.n_local * layout.stride +
                                       halo_columns)),
       of_wheel_(at(layout.n_sectors)),
@@ -187,7 +188,7 @@ SolidWindow::SolidWindow(const SolidRubberPlan& plan, const RingLayout& layout,
 }
 
 bool SolidWindow::has_weight(int pack) const noexcept {
-  if (pack < -1 || pack >= own_packs_) return false;
+  if (pack < (alone_ ? 0 : -1) || pack >= own_packs_) return false;
   const auto first = weight_.begin() + (pack + 1) * lanes;
   return std::any_of(first, first + lanes, [](double w) { return w != 0.0; });
 }
@@ -196,8 +197,9 @@ bool SolidWindow::has_weight(int pack) const noexcept {
 void SolidWindow::find_packs() noexcept {
   packs_.clear();
   cleared_.clear();
-  for (int pack = -1; pack < own_packs_; ++pack) {
-    const bool here = has_weight(pack), last = has_weight(pack - 1);
+  for (int pack = alone_ ? 0 : -1; pack < own_packs_; ++pack) {
+    const bool here = has_weight(pack),
+               last = pack == 0 ? weight_[lanes - 1] != 0.0 : has_weight(pack - 1);
     if (here) packs_.push_back(pack);
     if (here || last || has_weight(pack + 1)) cleared_.push_back(pack);
     if (pack >= 0) shown_[at(pack)] = here || last ? 1 : 0;
@@ -234,6 +236,16 @@ void SolidWindow::find(const kernels::SolidTable& table, const double* now, doub
   s.stride = layout_.stride;
   s.energy = energy_.data() + lanes;
   table.rubber(s);
+  if (alone_) close_ring();
+}
+
+/// Before the first column there is the last.
+void SolidWindow::close_ring() noexcept {
+  if (shown_.front() == 0) return;
+  const bool is_there = weight_[lanes - 1] != 0.0;
+  double* before = force_.data() + RingLayout::lead - 1;
+  for (int k = 0; k < 6 * layout_.n_local; ++k, before += layout_.stride)
+    *before = is_there ? before[range_.columns] : 0.0;
 }
 
 void SolidWindow::add_sums(double* sums, int of_energy, int of_window) const noexcept {

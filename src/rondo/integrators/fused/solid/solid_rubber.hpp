@@ -48,12 +48,14 @@ class SolidWindow {
 
  private:
   void find_packs() noexcept;
+  void close_ring() noexcept;
   [[nodiscard]] bool has_weight(int pack) const noexcept;
 
   const SolidRubberPlan& plan_;
   const RingLayout& layout_;
   CyclicChunkRange range_;
   int own_packs_;
+  bool alone_;  ///< the whole ring: its own neighbour
   LargeArray force_;
   std::vector<double> of_wheel_;  ///< (n_sectors) weights
   // Of the columns, padded to packs, from pack -1 on:

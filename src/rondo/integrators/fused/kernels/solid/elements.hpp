@@ -80,27 +80,35 @@ inline PointPlace place_of(int q) noexcept {
   return {y + 2 * z, x + 2 * z, x + 2 * y};
 }
 
-/// What the volume of the whole element does.
-struct MeanVolume {
+/// J^(-1/3) at the points, and what the volume of the whole element does.
+struct Volumes {
+  alignas(64) double root[8][8];
   Pack pressure, energy;
 };
 
-inline MeanVolume mean_volume(const SolidRubberElement& e, const Tangents& g) noexcept {
+/// The roots of all points together, so that none waits for another.
+inline Volumes volumes_of(const SolidRubberElement& e, const Tangents& g) noexcept {
+  Volumes v;
   Pack sum = all(0.0), least = all(1e300);
+#pragma GCC unroll 2
   for (int q = 0; q < 8; ++q) {
     const PointPlace p = place_of(q);
     const Space a = load_space(g.of[0][p.yz], lanes), b = load_space(g.of[1][p.xz], lanes),
                 c = load_space(g.of[2][p.xy], lanes);
     const Pack det = add_dot(a, cross(b, c), all(0.0));
+    store(v.root[q], det * all(1.0 / e.volume[q]));
     sum = sum + det;
     least = smaller(det, least);
   }
+#pragma GCC unroll 4
+  for (int q = 0; q < 8; ++q) store(v.root[q], inverse_cube_root(load(v.root[q])));
   const Pack less_one = (sum - all(e.whole_volume)) * all(1.0 / e.whole_volume);
   const Pack square = less_one * (all(2.0) + less_one);  // J² - 1
   const Pack good = square_root(least);                  // not a number where a det F < 0
   const Pack bulk = all(0.5 * e.bulk);
-  return {bulk * square / (all(1.0) + less_one) + (good - good),
-          all(0.5 * e.whole_volume) * bulk * (square - all(2.0) * log_of_one_and(less_one))};
+  v.pressure = bulk * square / (all(1.0) + less_one) + (good - good);
+  v.energy = all(0.5 * e.whole_volume) * bulk * (square - all(2.0) * log_of_one_and(less_one));
+  return v;
 }
 
 /// The forces of the law on the tangents at a point, but for those of the pressure.
@@ -112,7 +120,8 @@ struct PointForces {
 /// Forces on the tangents at point q.
 template <bool Bends, bool Second>
 [[gnu::always_inline]] inline PointForces point_forces(const SolidRubberElement& e, int q, Space a,
-                                                       Space b, Space c, Pack pressure) noexcept {
+                                                       Space b, Space c, Pack y,
+                                                       Pack pressure) noexcept {
   const auto& m = e.metric[q];
   const Space cof[3] = {cross(b, c), cross(c, a), cross(a, b)};
   const auto with = [](const double(&of)[6], Space x, Space y, Space z, Space(&to)[3]) {
@@ -126,8 +135,7 @@ template <bool Bends, bool Second>
   with(m, a, b, c, h);
   const Pack zero = all(0.0), third = all(1.0 / 3.0);
   const Pack first = add_dot(a, h[0], add_dot(b, h[1], add_dot(c, h[2], zero)));
-  const Pack j = add_dot(a, cof[0], zero) * all(1.0 / e.volume[q]);
-  const Pack y = inverse_cube_root(j), square = y * y, inverse = square * y;
+  const Pack square = y * y, inverse = square * y;
   const Pack more = fma(square, first, all(-3.0));
   PointForces out;
   Pack slope = all(e.c10);
@@ -173,8 +181,8 @@ template <bool Bends, bool Second>
     put_tangents(g.of[1], load_mode(modes, mode_y), xy, yz, xyz);
     put_tangents(g.of[2], load_mode(modes, mode_z), zx, yz, xyz);
   }
-  const MeanVolume mean = mean_volume(e, g);
-  Pack energy = mean.energy;
+  const Volumes volumes = volumes_of(e, g);
+  Pack energy = volumes.energy;
   const Pack zero = all(0.0);
   for (int p = 0; p < 4; ++p) {
     store_space(f.of[1][p], lanes, {zero, zero, zero});
@@ -188,7 +196,8 @@ template <bool Bends, bool Second>
       const int q = x + 2 * yz;
       const PointPlace p = place_of(q);
       const Space b = load_space(g.of[1][p.xz], lanes), c = load_space(g.of[2][p.xy], lanes);
-      const PointForces at = point_forces<Bends, Second>(e, q, a, b, c, mean.pressure);
+      const PointForces at =
+          point_forces<Bends, Second>(e, q, a, b, c, load(volumes.root[q]), volumes.pressure);
       energy = energy + at.energy;
       sum = sum + at.f[0];
       store_space(f.of[1][p.xz], lanes, load_space(f.of[1][p.xz], lanes) + at.f[1]);
@@ -269,12 +278,12 @@ inline void add_to_corners(const SolidRubber& s, const SolidRubberElement& e, st
   }
 }
 
-/// The product of the tangent with modes.
-inline void times_stiffness(const SolidRubberElement& e, const double* modes,
-                            double* force) noexcept {
+/// Takes the forces of the state and of the tangent from those on modes. @return their work
+inline Pack take_tangent(const SolidRubberElement& e, const double* modes, double* force) noexcept {
   Pack u[n_components];
 #pragma GCC unroll 21
   for (int n = 0; n < n_components; ++n) u[n] = load(modes + n * lanes);
+  Pack work = all(0.0);
   const double* k = e.stiffness;
   for (int m = 0; m < n_components; ++m, k += n_components) {
     Pack a = all(k[0]) * u[0], b = all(k[1]) * u[1], c = all(k[2]) * u[2];
@@ -284,32 +293,25 @@ inline void times_stiffness(const SolidRubberElement& e, const double* modes,
       b = fma(all(k[n + 1]), u[n + 1], b);
       c = fma(all(k[n + 2]), u[n + 2], c);
     }
-    store(force + m * lanes, a + b + c);
+    const Pack linear = a + b + c, rest = all(e.force[m]);
+    work = fma(load(modes + m * lanes), fma(all(0.5), linear, rest), work);
+    store(force + m * lanes, load(force + m * lanes) - rest - linear);
   }
+  return work;
 }
 
 /// One element on one pack of columns.
 inline void rubber_pack(const SolidRubber& s, const SolidRubberElement& e,
                         std::ptrdiff_t column) noexcept {
-  alignas(64) double way[n_components * 8], place[n_components * 8], linear[n_components * 8],
-      force[n_components * 8];
-  const Pack weight = load(s.weight + column);
+  alignas(64) double way[n_components * 8], place[n_components * 8], force[n_components * 8];
   modes_of(s, e, column, load(s.mask + column), way);
+#pragma GCC unroll 7
   for (int n = 0; n < n_components; ++n)
     store(place + n * lanes, load(way + n * lanes) + all(e.rest[n]));
-  Pack energy = forces_of(e, place, force) - all(e.energy);
-  times_stiffness(e, way, linear);
-  Pack of_state = all(0.0), of_tangent = all(0.0);
-  for (int n = 0; n < n_components; ++n) {
-    const Pack u = load(way + n * lanes), f = load(linear + n * lanes), rest = all(e.force[n]);
-    of_state = fma(rest, u, of_state);
-    of_tangent = fma(f, u, of_tangent);
-    store(force + n * lanes, load(force + n * lanes) - rest - f);
-  }
-  energy = fnma(all(0.5), of_tangent, energy - of_state);
+  const Pack energy = forces_of(e, place, force) - all(e.energy);
   double* const sum = s.energy + column;
-  store(sum, load(sum) + energy);
-  add_to_corners(s, e, column, weight, force);
+  store(sum, load(sum) + (energy - take_tangent(e, way, force)));
+  add_to_corners(s, e, column, load(s.weight + column), force);
 }
 
 /// Adds the forces of all elements on the packs that are named to zero.
