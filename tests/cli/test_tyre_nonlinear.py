@@ -14,6 +14,16 @@ from test_tyre_rolling import MESH
 RADIUS = 0.31598535755  # m, inflated at rest: 90 sectors
 COARSE = TYRE.replace(str(FULL), str(MESH)).replace("sectors = 120", "sectors = 90")
 CORDS = ("--set", "inflation.nonlinear=cords")
+WINDOW = ("--set", "inflation.nonlinear=window", "--set", f"inflation.window={35 * np.pi / 180!r}")
+ALL = ("--set", "inflation.nonlinear=all")
+# The law of the base in the words of Ogden's, which the readable step takes.
+OGDEN = COARSE.replace("""surface = "base"
+shear_modulus = 1500000.0
+""", """surface = "base"
+model = "ogden"
+terms = [[1.5e6, 2.0]]
+poissons_ratio = 0.48
+""")
 
 
 def standing(depth, end):
@@ -53,6 +63,55 @@ class Nonlinear(TyreTest):
         self.assertLess(summary(self.results)["integration_relative"], 1e-8)
         self.assertAlmostEqual(self.stands(10e-3, *CORDS) / 1860.33, 1.0, delta=1e-3)
 
+    def test_loads_with_all_nonlinear(self):
+        """811.29 N at 5 mm, 1800.09 N at 10 mm."""
+        self.assertAlmostEqual(self.stands(5e-3, *ALL) / 811.29, 1.0, delta=1e-3)
+        self.assertNotIn("window_work", history(self.results))
+        self.assertAlmostEqual(self.stands(10e-3, *ALL) / 1800.09, 1.0, delta=1e-3)
+
+    def test_loads_with_rubber_in_a_window(self):
+        """As with all of the rubber: away from the ground it strains little."""
+        self.assertAlmostEqual(self.stands(5e-3, *WINDOW) / 811.29, 1.0, delta=1e-3)
+        self.assertAlmostEqual(self.stands(10e-3, *WINDOW) / 1800.09, 1.0, delta=1e-3)
+        self.assertLess(summary(self.results)["integration_relative"], 1e-6)
+        self.assertEqual(np.abs(history(self.results)["window_work"]).max(), 0.0)
+
+    def rolls(self, *more, text=COARSE):
+        """Comes down while it turns by a tenth."""
+        text = text + standing(10e-3, 0.02)[len(COARSE):].replace("[0.01, ", "[0.004, ").replace("friction = 0.0", "friction = 0.5")
+        text = text.replace("angular_velocity = 0.0", "angular_velocity = 33.0").replace("speed = 0.0", "speed = 10.3")
+        how = () if "--resume" in more else ("--overwrite",)
+        done = run("run", self.case(text), "-o", self.results, "--quiet", *how, *more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess(summary(self.results)["energy_residual_relative"], 1e-12)
+        return history(self.results)
+
+    def test_rubber_enters_and_leaves_a_window(self):
+        """Its work is what the energy lacks, but for the error of the steps, of second order. A narrow window, whose
+        edges are in rubber that is strained."""
+        found = []
+        for step in (4e-6, 2e-6):
+            h = self.rolls(*WINDOW[:2], "--set", "inflation.window=0.2", "--set", f"time.step={step}")
+            missing = h["internal_work"] + h["window_work"] - h["stored_energy"]
+            found.append(abs(missing).max())
+            self.assertGreater(abs(h["window_work"]).max(), 100.0 * found[-1])
+            exchanged = missing[-1] / h["integration"][-1]
+            self.assertGreater(exchanged, h["stored_energy"][-1])
+        self.assertAlmostEqual(found[0] / found[1], 4.0, delta=0.4)
+
+    def test_it_goes_on_to_the_same_bytes(self):
+        """By the fused step, and by the one of Ogden's law."""
+        for text, step in ((COARSE, "fused 3-D cyclic"), (OGDEN, "general 3-D")):
+            window = (*WINDOW[:2], "--set", "inflation.window=0.05")
+            whole = self.rolls(*window, "--set", "time.end=3e-3", text=text)["window_work"]
+            self.assertNotEqual(whole[-1], 0.0)
+            told = run("check", self.case(text + standing(10e-3, 0.02)[len(COARSE):]), *window).stdout
+            self.assertRegex(told, f"integrator +{step}")
+            whole = (self.results / "history.csv").read_bytes()
+            self.rolls(*window, "--set", "time.end=2e-3", text=text)
+            self.rolls(*window, "--set", "time.end=3e-3", "--resume", text=text)
+            self.assertEqual((self.results / "history.csv").read_bytes(), whole)
+
     def test_it_stands_still_without_ground(self):
         text = COARSE + """
 [motion]
@@ -64,13 +123,14 @@ end = 2e-3
 [output]
 snapshots = 2
 """
-        done = run("run", self.case(text), "-o", self.results, "--quiet", *CORDS)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertNotIn("warning", done.stderr)
-        self.assertEqual(summary(self.results)["integration_relative"], 0.0)
-        self.assertLess(summary(self.results)["energy_residual_relative"], 1e-12)
-        with h5py.File(self.results / "results.h5") as file:
-            self.assertLess(np.abs(file["snapshots/displacement"][:]).max(), 1e-15)
+        for nonlinear in (CORDS, WINDOW, ALL):
+            done = run("run", self.case(text), "-o", self.results, "--overwrite", "--quiet", *nonlinear)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertNotIn("warning", done.stderr)
+            self.assertEqual(summary(self.results)["integration_relative"], 0.0)
+            self.assertLess(summary(self.results)["energy_residual_relative"], 1e-12)
+            with h5py.File(self.results / "results.h5") as file:
+                self.assertLess(np.abs(file["snapshots/displacement"][:]).max(), 1e-15)
 
     def test_the_error_of_integration_is_of_second_order(self):
         """As the tyre strikes the ground at 2 m/s, with half the step."""

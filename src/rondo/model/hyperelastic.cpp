@@ -47,7 +47,11 @@ class Hyperelastic final : public InternalForce {
     relax(u);
     const fem::Look look = body_->gradient(u, histories_, force_, pass_, model_.threads);
     add_work(u);
-    report_ = {work_.value(), look.energy, loss_.value(), look.least.ratio};
+    report_ = {.internal_work = work_.value(),
+               .stored_energy = look.energy,
+               .window_work = 0.0,
+               .dissipation_viscous = loss_.value(),
+               .least_volume = look.least.ratio};
     relax(u);
     u_.assign(u.begin(), u.end());
     update_poses(model_, u_, poses_);

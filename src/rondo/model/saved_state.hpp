@@ -26,8 +26,11 @@ struct SavedState {
   std::vector<std::pair<std::uint64_t, Vec2>> impulses;
   std::vector<double> branches;       ///< of rubber: C_i of element and branch, xx, yy, xy
   std::vector<double> internal_work;  ///< of rubber (rubber_work.hpp, hyperelastic.hpp)
-  std::vector<double> rim;            ///< state of a loaded rim (loaded_rim.hpp)
-  std::vector<double> ring;           ///< contacts of a massless boundary (MasslessContact::save)
+  /// Of nonlinear rubber in a window: W and what its rounding left [J]; weight and energy [J] of
+  /// each column (swept_part.hpp)
+  std::vector<double> window;
+  std::vector<double> rim;   ///< state of a loaded rim (loaded_rim.hpp)
+  std::vector<double> ring;  ///< contacts of a massless boundary (MasslessContact::save)
   /// For each node where the parts of the scheme "hati" meet: u and v of the coarse part [m],
   /// [m/s], and the multiplier [N/m]; (3 interface).
   std::vector<Vec2> interface;

@@ -185,6 +185,10 @@ void put_state(File& file, const dynamics::SavedState& s) {
       {"1", "viscous strains of rubber: xx, yy, xy of each branch of each element"});
   put(file, "/state/internal_work", s.internal_work,
       {"J/m", "of nonlinear forces: work and dissipation, and what their rounding left"});
+  put(file, "/state/window", s.window,
+      {"J",
+       "of rubber in a window: its work, what its rounding left, weights [1] and energies of "
+       "columns"});
   put(file, "/state/rim", s.rim, {"1", "what a loaded rim carries"});
   put(file, "/state/ring", s.ring, {"1", "contacts of a massless boundary"});
   put(file, "/state/interface", s.interface,
@@ -202,6 +206,7 @@ void get_state(const File& file, dynamics::SavedState& s) {
   s.energy = get<double>(file, "/state/energy");
   s.branches = get<double>(file, "/state/branches");
   s.internal_work = get<double>(file, "/state/internal_work");
+  s.window = get<double>(file, "/state/window");
   s.rim = get<double>(file, "/state/rim");
   s.ring = get<double>(file, "/state/ring");
   s.interface = get<Vec2>(file, "/state/interface");

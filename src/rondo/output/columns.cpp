@@ -160,9 +160,17 @@ constexpr std::array rubber{
     Column<H>{"dissipation_viscous", "J/m", "by the branches of `material.viscosity`",
               [](const H& r) { return r.material.dissipation_viscous; }},
     Column<H>{"integration", "1",
-              "(`internal_work` − `stored_energy` − `dissipation_viscous`) over the energy "
-              "exchanged so far: what the steps miss of the forces, of second order in the step",
+              "(`internal_work` + `window_work` − `stored_energy` − `dissipation_viscous`) over "
+              "the energy exchanged so far: what the steps miss of the forces, of second order in "
+              "the step",
               [](const H& r) { return r.material.relative_integration(r.balance.exchanged); }}};
+
+constexpr std::array window{
+    Column<H>{"window_work", "J/m",
+              "by the motion of the window of `inflation.window`: what rubber gains in energy as "
+              "it enters less what it loses as it leaves; no part of the balance, but of "
+              "`integration`",
+              [](const H& r) { return r.material.window_work; }}};
 
 constexpr std::array hati{
     Column<H>{"work_interface", "J/m",
@@ -228,10 +236,12 @@ struct ColumnGroup {
   std::span<const Column<H>> columns;
 };
 
-constexpr std::array groups{
-    ColumnGroup{&HistoryFeatures::solid, solid}, ColumnGroup{&HistoryFeatures::rim, rim},
-    ColumnGroup{&HistoryFeatures::massless, massless},
-    ColumnGroup{&HistoryFeatures::rubber, rubber}, ColumnGroup{&HistoryFeatures::hati, hati}};
+constexpr std::array groups{ColumnGroup{&HistoryFeatures::solid, solid},
+                            ColumnGroup{&HistoryFeatures::rim, rim},
+                            ColumnGroup{&HistoryFeatures::massless, massless},
+                            ColumnGroup{&HistoryFeatures::rubber, rubber},
+                            ColumnGroup{&HistoryFeatures::window, window},
+                            ColumnGroup{&HistoryFeatures::hati, hati}};
 
 }  // namespace
 

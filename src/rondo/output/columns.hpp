@@ -51,7 +51,8 @@ struct HistoryFeatures {
   bool rim = false;       ///< a loaded rim
   bool massless = false;  ///< massless contact nodes
   bool rubber = false;
-  bool hati = false;  ///< the scheme "hati"
+  bool window = false;  ///< of nonlinear rubber
+  bool hati = false;    ///< the scheme "hati"
 };
 
 /// Columns of history.csv: those of all runs, then the groups in the order of the features.

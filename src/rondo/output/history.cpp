@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/model/solid/swept_part.hpp"
 #include "rondo/output/probes.hpp"
 
 namespace rondo::study {
@@ -35,6 +36,7 @@ History::History(const Case& c, const Setup& setup, const HistoryPlace& place)
                 .rim = setup.model.rim.has_value(),
                 .massless = has_massless_contact(setup.model),
                 .rubber = has_internal_work(setup),
+                .window = dynamics::has_window(setup.model),
                 .hati = setup.model.subdomains.has_value()},
       at_(place) {
   RONDO_DEMAND(dt_ > 0.0 && std::isfinite(dt_) && interval_ >= 0.0, dt_, interval_);

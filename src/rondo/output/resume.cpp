@@ -19,6 +19,7 @@
 #include "rondo/io/directory.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/model/loaded_rim.hpp"
+#include "rondo/model/solid/swept_part.hpp"
 #include "rondo/model/steps/step_table.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/output/snapshot_schedule.hpp"
@@ -173,7 +174,8 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const std::size_t rim_numbers = rim ? dynamics::LoadedRim::n_numbers : 0;
   const std::size_t works = has_internal_work(setup) ? 4 : 0;
   return s.branches.size() == branch_numbers(setup) && s.internal_work.size() == works &&
-         fits(s.u, n, model) && fits(s.v, n, model) && fits(s.force, force, model) &&
+         s.window.size() == dynamics::window_numbers(model) && fits(s.u, n, model) &&
+         fits(s.v, n, model) && fits(s.force, force, model) &&
          fits(s.u_before, rim ? n : 0, model) && s.gradient.size() == (general ? n : 0) &&
          s.energy.size() == n_free && s.poses.size() == n_free &&
          (massless ? dynamics::MasslessContact::is_saved(s.ring, model.contact->nodes.size())

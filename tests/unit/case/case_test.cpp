@@ -194,6 +194,9 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
   const std::string inflated =
       "\n" + write_case(read_text(rubber("model = 'neo-hooke'\nshear_modulus = 1e6"),
                                   {"disk.width=0.1", "inflation={}"}));
+  const std::string windowed =
+      "\n" + write_case(read_text(rubber("model = 'neo-hooke'\nshear_modulus = 1e6"),
+                                  {"disk.width=0.1", "inflation={nonlinear = 'window'}"}));
   const auto is_for_wheels = [](std::string_view key) {
     return key == "disk.mesh.axial" || key == "motion.slip_angle" || key == "motion.camber";
   };
@@ -209,6 +212,7 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
                               : is_steady                          ? steady
                               : is_for_free_bodies(key.path)       ? free
                               : is_for_wheels(key.path)            ? wheel
+                              : key.path == "inflation.window"     ? windowed
                               : key.path.starts_with("inflation.") ? inflated
                                                                    : held;
     const auto table = table_of(key.path);

@@ -93,7 +93,8 @@ end = 0.2
                                  "model = 'neo-hooke'\nshear_modulus = 1e6\n" +
                                  section.substr(section.find("poissons"));
     const std::string air =
-        "inflation={curve = 'liner', pressure = 1e5, spin = 3, steps = 4, nonlinear = 'cords', "
+        "inflation={curve = 'liner', pressure = 1e5, spin = 3, steps = 4, nonlinear = 'window', "
+        "window = 0.5, "
         "mounting = [{curve = 'rim', axial = 1e-3, radial = 1e-4}]}";
     const std::vector<std::string> cords{
         air,

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
 #include <vector>
 
+#include "rondo/fem/finite/sector_energy.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
 #include "rondo/integrators/fused/solid/solid_cyclic_integrator.hpp"
 #include "rondo/integrators/integrator.hpp"
@@ -36,6 +38,8 @@ struct Case {
   bool unsteady = true;   ///< spin, slip angle, height and pressure change; gravity
   bool rim = false;       ///< free along t1 and n and about the axle, with loads
   bool cords = false;     ///< cords and air are not linear
+  double window = 0.0;    ///< nor is rubber so far to each side of the lowest point; 0: it is
+  fem::RubberLaw law = fem::RubberLaw::neo_hooke;
   bool rest = false;      ///< the state at rest has forces of its own
   bool obstacle = false;  ///< a ramp with rounded edges, and a concave corner
 };
@@ -107,6 +111,51 @@ void add_cords(Model& m, const mesh::Mesh& mesh) {
   m.solid->swept = SweptPart{faces, k};
 }
 
+fem::Rubber rubber_of(fem::RubberLaw law) {
+  fem::Rubber rubber;
+  rubber.law = law;
+  rubber.c10 = 3.8e6;
+  if (law == fem::RubberLaw::mooney_rivlin) rubber.c10 = 2.8e6, rubber.c01 = 1e6;
+  if (law == fem::RubberLaw::yeoh) rubber.c20 = -4e5, rubber.c30 = 1e5;
+  if (law == fem::RubberLaw::ogden) rubber.terms = {{6e6, 2.0}};
+  rubber.bulk_modulus = 1.7e7;
+  return rubber;
+}
+
+/// The section of a wheel without pitches, whose state is away from it.
+void add_rubber(const Case& c, const mesh::Mesh& mesh, Model& m) {
+  const auto n = static_cast<std::size_t>(m.solid->sector.nodes_per_sector);
+  fem::finite::SweptSection section;
+  section.n_sectors = m.solid->sector.n_sectors;
+  std::vector<Vec3> u;
+  for (std::size_t a = 0; a < n; ++a) {
+    const double r = norm(mesh.coordinates[a]), z = mesh.axial[a];
+    u.emplace_back(4e-3 * (r - 0.15) * (1.0 + 50.0 * z), 0.0, -0.03 * z * (r - 0.1));
+    section.place.emplace_back(r - u[a].x, z - u[a].z);
+  }
+  section.held.assign(3 * n, 0);
+  for (const mesh::Hexahedron& h : mesh.hexahedra) {
+    std::vector<int> corner;
+    std::ranges::copy_if(h, std::back_inserter(corner),
+                         [&](int node) { return static_cast<std::size_t>(node) < n; });
+    if (corner.size() != 4 ||
+        std::ranges::any_of(h, [&](int node) { return static_cast<std::size_t>(node) >= 2 * n; }))
+      continue;
+    const auto place = [&](int node) { return section.place[static_cast<std::size_t>(node)]; };
+    const Vec2 middle =
+        0.25 * (place(corner[0]) + place(corner[1]) + place(corner[2]) + place(corner[3]));
+    std::ranges::sort(corner, {}, [&](int node) {
+      const Vec2 arm = place(node) - middle;
+      return std::atan2(arm.y, arm.x);
+    });
+    section.quads.push_back({{corner[0], corner[1], corner[2], corner[3]}, 0});
+  }
+  section.rubbers = {rubber_of(c.law)};
+  section.densities = {1100.0};
+  m.solid->swept->rubber = fem::finite::SectorEnergy(section).rubber(u);
+  m.solid->swept->window.half = c.window;
+}
+
 Model model_of(const Case& c) {
   const mesh::Mesh mesh = mesh::make_wheel(c.wheel);
   test::Cornering rolling;
@@ -144,6 +193,7 @@ Model model_of(const Case& c) {
     m.solid->pressures.push_back({outwards, Table(1.0), true});
   }
   if (c.cords) add_cords(m, mesh);
+  if (c.window > 0.0) add_rubber(c, mesh, m);
   if (c.rim) m.rim = some_rim();
   return m;
 }
@@ -249,6 +299,7 @@ void expect_near(const Outcome& a, const Outcome& b, double bound) {
     const MaterialReport &m = a.reports[i].material, &n = b.reports[i].material;
     energy.see(m.internal_work, n.internal_work);
     energy.see(m.stored_energy, n.stored_energy);
+    energy.see(m.window_work, n.window_work);
     ASSERT_EQ(m.least_volume, n.least_volume);
     residual.see(e.residual, f.residual);
   }
@@ -282,6 +333,7 @@ void expect_same(const Outcome& a, const Outcome& b) {
     ASSERT_EQ(e.works.frame, f.works.frame) << i;
     ASSERT_EQ(e.works.load, f.works.load) << i;
     ASSERT_EQ(a.reports[i].material.stored_energy, b.reports[i].material.stored_energy) << i;
+    ASSERT_EQ(a.reports[i].material.window_work, b.reports[i].material.window_work) << i;
     ASSERT_EQ(e.works.dissipation_stiffness, f.works.dissipation_stiffness) << i;
     ASSERT_EQ(e.works.dissipation_friction, f.works.dissipation_friction) << i;
   }
@@ -326,6 +378,23 @@ std::vector<Case> cases() {
   all.push_back({.name = "cords_rim", .rim = true, .cords = true, .rest = true});
   all.push_back(
       {.name = "cords_wide", .wheel = test::box_wheel(3, 12, 330), .beta = 0.0, .cords = true});
+  all.push_back({.name = "window", .cords = true, .window = 0.4});
+  all.push_back({.name = "window_rim", .rim = true, .cords = true, .window = 0.3, .rest = true});
+  all.push_back({.name = "window_mooney",
+                 .wheel = test::box_wheel(4, 3, 77),
+                 .beta = 0.0,
+                 .cords = true,
+                 .window = 0.5,
+                 .law = fem::RubberLaw::mooney_rivlin});
+  all.push_back({.name = "window_yeoh",
+                 .unsteady = false,
+                 .cords = true,
+                 .window = 1.0,
+                 .law = fem::RubberLaw::yeoh});
+  all.push_back(
+      {.name = "window_wide", .wheel = test::box_wheel(3, 5, 330), .cords = true, .window = 0.2});
+  all.push_back({.name = "all_rubber", .pressure = 2e4, .cords = true, .window = 7.0});
+  all.push_back({.name = "all_rubber_rim", .beta = 0.0, .rim = true, .cords = true, .window = 7.0});
   all.push_back({.name = "pitches", .wheel = treaded(4, 4, {19, 0.02, 3, 1, 2})});
   all.push_back(
       {.name = "pitches_pressure", .wheel = treaded(4, 3, {41, 0.02, 1, 1, 1}), .pressure = 2e4});

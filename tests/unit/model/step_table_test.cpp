@@ -77,6 +77,8 @@ TEST(StepTable, ChoosesTheFastestStep) {
   EXPECT_EQ(kind(has::three_dimensions | has::camber), StepKind::solid_cyclic);
   EXPECT_EQ(kind(has::three_dimensions | has::loaded_rim | has::nonlinear_cords),
             StepKind::solid_cyclic);
+  EXPECT_EQ(kind(has::three_dimensions | has::nonlinear_cords | has::nonlinear_ogden),
+            StepKind::solid);
   EXPECT_EQ(kind(has::three_dimensions | has::loaded_rim | has::friction_law),
             StepKind::solid_wheel);
 }

@@ -24,6 +24,16 @@ bool has_slip_or_camber(const Case& c) {
   return is_solid(c) && (c.motion.camber != 0.0 || c.motion.slip_angle.largest() != 0.0);
 }
 
+bool has_nonlinear_ogden(const Case& c) {
+  if (!c.inflation ||
+      (c.inflation->nonlinear != TyreMotion::window && c.inflation->nonlinear != TyreMotion::all))
+    return false;
+  return c.law.model == MaterialModel::ogden ||
+         std::ranges::any_of(c.regions, [](const MaterialRegion& region) {
+           return region.law.model == MaterialModel::ogden;
+         });
+}
+
 /// If a feature has two rows, the last one also applies to a feature known only from the model.
 constexpr std::array rows{
     CaseFeature{has::three_dimensions, "section", "a [disk] without disk.width",
@@ -54,6 +64,8 @@ constexpr std::array rows{
     CaseFeature{
         has::nonlinear_cords, "inflation.nonlinear", "inflation.nonlinear = \"none\"",
         [](const Case& c) { return c.inflation && c.inflation->nonlinear != TyreMotion::linear; }},
+    CaseFeature{has::nonlinear_ogden, "inflation.nonlinear", "inflation.nonlinear = \"cords\"",
+                has_nonlinear_ogden},
     CaseFeature{has::own_material, "material.model", "material.model = \"linear\"",
                 [](const Case&) { return false; }},
     CaseFeature{has::implicit, "solver.implicit[0]", "no [[solver.implicit]]",

@@ -146,18 +146,15 @@ void warn_of_spin(CaseValues& in, Case& c) {
   }
 }
 
-/// Steady rolling is linear about the state, and so is the equilibrium with another spin.
+/// A stationary start at another spin than that of the state is linear about the state.
 void check_nonlinear(CaseValues& in, const Case& c) {
   if (c.inflation->nonlinear == TyreMotion::linear) return;
-  if (c.analysis.kind == AnalysisKind::steady_rolling) return;
-  if (c.inflation->nonlinear != TyreMotion::cords)
-    return in.refuse("inflation.nonlinear", "rubber is linear in steps in time", "\"cords\"");
   if (c.initial.state == InitialState::stationary &&
       std::abs(c.motion.angular_velocity.at(0.0)) != std::abs(spin_at_rest(c)))
     in.refuse(
         "initial.state",
         fmt::format("\"stationary\" is linear about the state at {} rad/s "
-                    "(inflation.spin), and with inflation.nonlinear = \"cords\" no "
+                    "(inflation.spin), and with inflation.nonlinear no "
                     "equilibrium at the spin of t = 0",
                     spin_at_rest(c)),
         "\"rest\"; or inflation.spin = motion.angular_velocity at t = 0, which is its default");

@@ -36,8 +36,11 @@ RubberRemainder::RubberRemainder(SweptRubber rubber, std::vector<Complex> turn)
     const RubberEnergy of =
         rubber_hexahedron(rubber_.points[e], s.u, rubber_.rubbers[at(rubber_.rubber[e])]);
     RONDO_DEMAND(of.least > 0.0, e, of.least);
-    s.energy = of.value;
-    s.force = of.force;
+    // By the loops of the steps: nothing is left in the state, to the last bit.
+    const RubberForce force =
+        rubber_force(rubber_.points[e], s.u, rubber_.rubbers[at(rubber_.rubber[e])]);
+    s.energy = force.energy;
+    s.force = flat(force.force);
     s.stiffness = of.stiffness;
     state_.push_back(s);
   }

@@ -12,6 +12,7 @@
 #include "rondo/integrators/fused/solid/solid_plan.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
 #include "rondo/integrators/general/step_traps.hpp"
+#include "rondo/model/solid/swept_part.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -297,11 +298,13 @@ SavedState BatchIntegrator::save() const {
     saved.rim = rim_->save();
     saved.u_before = zero;
   }
+  saved.window.resize(window_numbers(model_));
   save_fields(saved);
   if (corners_) saved.impulses = corners_->coupled().kept;
   for (const auto& tail : tails_) tail->save(saved);
   if (rubber_work_) {
     saved.internal_work = rubber_work_->save();
+    if (!saved.window.empty()) rubber_work_->save_window(saved.window);
     if (rubber_forces_) rubber_forces_->save(saved.branches);
   }
   saved.ledger = ledger_.save();
@@ -315,6 +318,7 @@ void BatchIntegrator::restore(const SavedState& saved) {
                    (!rim_ || saved.u_before.size() == model_.n_nodes()) &&
                    (!keeps_force() || saved.force.size() == model_.n_nodes()),
                saved.u.components(), saved.u_before.size(), saved.force.size(), model_.n_nodes());
+  RONDO_DEMAND(saved.window.size() == window_numbers(model_), saved.window.size());
   step_ = saved.step;
   if (rim_) rim_->restore(saved.step, saved.rim);
   restore_fields(saved);
@@ -322,6 +326,7 @@ void BatchIntegrator::restore(const SavedState& saved) {
   for (const auto& tail : tails_) tail->restore(saved);
   if (rubber_work_) {
     rubber_work_->restore(saved.internal_work);
+    if (!saved.window.empty()) rubber_work_->restore_window(saved.window);
     if (rubber_forces_) rubber_forces_->restore(saved.branches);
   }
   ledger_.restore(saved.ledger);

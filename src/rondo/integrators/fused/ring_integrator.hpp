@@ -52,10 +52,10 @@ class RingIntegrator : public BatchIntegrator {
   void save_velocity(Field& v) const noexcept final {
     for (const Chunk& chunk : chunks_) chunk.save_velocity(v);
   }
-  void save_fields(SavedState& saved) const noexcept final {
+  void save_fields(SavedState& saved) const noexcept override {
     for (const Chunk& chunk : chunks_) chunk.save(saved);
   }
-  void restore_fields(const SavedState& saved) noexcept final {
+  void restore_fields(const SavedState& saved) noexcept override {
     for (Chunk& chunk : chunks_) chunk.restore(saved);
   }
   void save_active(std::vector<ActiveContact>& active) const noexcept final {

@@ -92,9 +92,9 @@ void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& f
 namespace {
 
 StepSums add_up(std::span<const PartialStep> parts) noexcept {
-  static_assert(int{kernels::n_sums} <= int{kernels::n_rubber_sums} &&
-                int{kernels::n_rubber_sums} <= kernels::most_sums);
-  std::array<CompensatedSum, kernels::n_rubber_sums> sums;  // what is not set is 0
+  static_assert(int{kernels::n_sums} <= int{kernels::n_solid_rubber_sums} &&
+                int{kernels::n_solid_rubber_sums} <= kernels::most_sums);
+  std::array<CompensatedSum, kernels::n_solid_rubber_sums> sums;  // what is not set is 0
   for (const PartialStep& part : parts)
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k].add(part.sums[k]);
   StepSums total{};

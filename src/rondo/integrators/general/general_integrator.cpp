@@ -55,7 +55,7 @@ void GeneralIntegrator::move(double& kinetic) noexcept {
 /// Forces at u_{n+1} and the frame of this step; the strain energy of the half step before.
 void GeneralIntegrator::find_forces(double& strain) noexcept {
   state_.frame = frame_step(model_.motion, state_.step, model_.dt);
-  strain = forces_.evaluate(state_.u, state_.v, state_.frame.time);
+  strain = forces_.evaluate(state_.u, state_.v, state_.frame);
   take_poses();
 }
 

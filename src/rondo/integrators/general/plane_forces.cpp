@@ -14,13 +14,13 @@ PlaneForces::PlaneForces(const Model& model, const State& start)
       load_(model.pressures.empty() ? 0 : model.n_nodes()) {}
 
 double PlaneForces::evaluate(std::span<const Vec2> u, std::span<const Vec2> v,
-                             double time) noexcept {
+                             const FrameStep& frame) noexcept {
   RONDO_ASSERT(u.size() == model_.n_nodes() && v.size() == u.size(), u.size(), v.size());
   internal_->evaluate(u);
   gradient_ = internal_->gradient();
   const double energy = internal_->half_step_energy(u, v);  // damping() overwrites what it needs
   if (!damping_.empty()) internal_->damping(damping_);
-  if (!load_.empty()) pressure_forces(model_, u, time, load_);
+  if (!load_.empty()) pressure_forces(model_, u, frame.time, load_);
   return energy;
 }
 

@@ -19,7 +19,8 @@ class PlaneForces {
 
   /// Forces at u_{n+1}. @param v v_{n+1/2}, relative to the rim
   /// @return strain energy of the half step before                                  [J/m]
-  double evaluate(std::span<const Vec2> u, std::span<const Vec2> v, double time) noexcept;
+  double evaluate(std::span<const Vec2> u, std::span<const Vec2> v,
+                  const FrameStep& frame) noexcept;
   /// Derivative of the strain energy with respect to the position of a node: minus the force [N/m]
   [[nodiscard]] Vec2 gradient(std::size_t k) const noexcept { return gradient_[k]; }
   /// β times the rate of the gradient                                                   [N/m]

@@ -91,7 +91,7 @@ void WheelStep<Of>::move(StepEnergy& energy) noexcept {
   std::swap(state_.u, next_);
   const Values relative = state_.v_next;  // overwritten later in the step
   find_rates(before_, state_.u, relative);
-  energy.strain = forces_.evaluate(state_.u, relative, state_.frame.time);
+  energy.strain = forces_.evaluate(state_.u, relative, state_.frame);
   const Complex back = conj(state_.frame.rotation);
   const Values v = state_.v;
   for_free_nodes(model_, [&](std::size_t k) {

@@ -16,20 +16,18 @@ SolidForces::SolidForces(const Model& model, const State& start)
   rest_ = rest_forces(model);
   const std::span<const Vec3> u = start.u;
   if (model.solid->swept) {
-    swept_.emplace(swept_forces(model));
+    swept_.emplace(swept_wheel(model));
     u_ = to_vector(u);
   }
-  const double stored = find(u);
+  const double stored = find(u, start.frame.angle);
   work_.add(stored);
   report_.internal_work = report_.stored_energy = stored;
 }
 
-double SolidForces::find(std::span<const Vec3> u) noexcept {
-  fem::apply(model_.solid->linear(), u, now_);
-  if (!swept_) return 0.0;
-  double linear = 0.0;
-  for_free_nodes(model_, [&](std::size_t k) { linear += 0.5 * dot(u[k], now_[k]); });
-  return linear + swept_->add_to(u, now_);
+double SolidForces::find(std::span<const Vec3> u, double angle) noexcept {
+  if (swept_) return swept_->find(u, angle, now_);
+  fem::apply(model_.solid->sector, u, now_);
+  return 0.0;
 }
 
 /// A_n + ½ f_n·Δu half a step before u_{n+1}; with ½ f_{n+1}·Δu more it is A_{n+1}.
@@ -44,6 +42,10 @@ double SolidForces::add_work(std::span<const Vec3> u, double stored) noexcept {
   work_.add(0.5 * (before + now));
   report_.internal_work = work_.value();
   report_.stored_energy = stored;
+  if (has_window(model_)) {
+    window_work_.add(swept_->window_work());
+    report_.window_work = window_work_.value();
+  }
   u_.assign(u.begin(), u.end());
   return half;
 }
@@ -51,6 +53,9 @@ double SolidForces::add_work(std::span<const Vec3> u, double stored) noexcept {
 void SolidForces::save(SavedState& saved) const {
   saved.force = now_;
   if (swept_) saved.internal_work = {work_.sum(), work_.correction(), 0.0, 0.0};
+  if (!has_window(model_)) return;
+  saved.window = {window_work_.sum(), window_work_.correction()};
+  swept_->save(saved.window);
 }
 
 void SolidForces::restore(const SavedState& saved) {
@@ -61,14 +66,18 @@ void SolidForces::restore(const SavedState& saved) {
   const Field& u = model_.rim ? saved.u_before : saved.u;
   u_ = to_vector(u.space());
   work_ = {saved.internal_work[0], saved.internal_work[1]};
+  if (!has_window(model_)) return;
+  RONDO_DEMAND(saved.window.size() == window_numbers(model_), saved.window.size());
+  window_work_ = {saved.window[0], saved.window[1]};
+  swept_->restore(std::span(saved.window).subspan(2));
 }
 
 double SolidForces::evaluate(std::span<const Vec3> u, std::span<const Vec3> /*v*/,
-                             double time) noexcept {
+                             const FrameStep& frame) noexcept {
   RONDO_ASSERT(u.size() == now_.size(), u.size(), now_.size());
   std::swap(now_, before_);
-  const double stored = find(u);
-  if (!load_.empty()) solid_pressure_forces(model_, time, load_);
+  const double stored = find(u, frame.angle);
+  if (!load_.empty()) solid_pressure_forces(model_, frame.time, load_);
   moment_ = rest_moment(rest_, u);
   if (swept_) return add_work(u, stored);
   double energy = 0.0;

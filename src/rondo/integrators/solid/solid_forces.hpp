@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Forces on the nodes of a wheel in three dimensions, in the co-rotating frame, as the
-/// readable steps take them: K u, or K of the rubber with nonlinear cords and air; stiffness
+/// readable steps take them: K u, or those of a wheel that is not linear about its state; stiffness
 /// damping, pressures (docs/wheel3d.md, docs/tyre.md).
 #pragma once
 #include <span>
@@ -20,7 +20,8 @@ class SolidForces {
 
   /// Forces at u_{n+1}. @return strain energy of the half step before, ½ u_{n+1}ᵀ K u_n; with
   /// nonlinear cords the work A_n + ½ f_n·(u_{n+1} - u_n) that their forces took so far      [J]
-  double evaluate(std::span<const Vec3> u, std::span<const Vec3> v, double time) noexcept;
+  double evaluate(std::span<const Vec3> u, std::span<const Vec3> v,
+                  const FrameStep& frame) noexcept;
   [[nodiscard]] Vec3 gradient(std::size_t k) const noexcept { return now_[k]; }
   /// β (K u_{n+1} - K u_n)/Δt.
   [[nodiscard]] Vec3 damping(std::size_t k) const noexcept {
@@ -42,17 +43,18 @@ class SolidForces {
 
  private:
   /// Forces at u. @return the energy that is stored there, with nonlinear cords; else 0 [J]
-  double find(std::span<const Vec3> u) noexcept;
+  double find(std::span<const Vec3> u, double angle) noexcept;
   double add_work(std::span<const Vec3> u, double stored) noexcept;
 
   const Model& model_;
   std::vector<Vec3> now_, before_, load_;
   std::vector<Vec3> rest_;  ///< (n) forces of the state at rest on the nodes; empty: none [N]
   double moment_ = 0.0;     ///< on the rim, at u_{n+1} [N m]
-  std::optional<fem::finite::SweptForces> swept_;
+  std::optional<SweptWheel> swept_;
   // With nonlinear cords:
-  std::vector<Vec3> u_;  ///< (n) u_n [m]
-  CompensatedSum work_;  ///< A, starting from what is stored at u_0 [J]
+  std::vector<Vec3> u_;         ///< (n) u_n [m]
+  CompensatedSum work_;         ///< A, starting from what is stored at u_0 [J]
+  CompensatedSum window_work_;  ///< W [J]
   MaterialReport report_;
 };
 

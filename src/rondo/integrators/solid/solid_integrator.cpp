@@ -21,7 +21,7 @@ void SolidIntegrator::move(StepEnergy& energy) noexcept {
     energy.kinetic += 0.5 * model_.mass[k] * dot(v[k], v[k]);
   });
   state_.frame = frame_step(model_.motion, state_.step, model_.dt);
-  energy.strain = forces_.evaluate(u, v, state_.frame.time);
+  energy.strain = forces_.evaluate(u, v, state_.frame);
 }
 
 /// v⁺ = v⁻ + [Δt f/m - drag v⁻]/a in the plane, A along the axle, without contact.

@@ -68,11 +68,10 @@ void start_solid(const Model& model, State& state) {
   RONDO_DEMAND(model.solid && state.u.size() == model.n_nodes() && state.u.components() == 3 &&
                    state.v_next.size() == model.n_nodes(),
                state.u.size(), state.u.components(), state.v_next.size(), model.n_nodes());
-  fem::apply(model.solid->linear(), state.u, state.force);
-  if (model.solid->swept) {
-    const std::span<const Vec3> u = state.u;
-    swept_forces(model).add_to(u, state.force.space());
-  }
+  if (model.solid->swept)
+    swept_wheel(model).find(state.u, state.frame.angle, state.force.space());
+  else
+    fem::apply(model.solid->sector, state.u, state.force);
   fem::apply(model.solid->sector, state.v, state.force_before);
   std::vector<Vec3> load(model.n_nodes());
   solid_pressure_forces(model, 0.0, load);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/model/solid/swept_part.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -8,14 +9,6 @@
 #include "rondo/fem/solid/solid_sector.hpp"
 
 namespace rondo::dynamics {
-
-fem::finite::SweptForces swept_forces(const Model& model) {
-  RONDO_DEMAND(model.solid && model.solid->swept, model.n_nodes());
-  std::vector<Vec3> x;
-  for (std::size_t k = 0; k < model.n_nodes(); ++k)
-    x.emplace_back(model.reference[k], model.solid->axial[k]);
-  return {model.solid->swept->faces, std::move(x), model.solid->sector.n_sectors};
-}
 
 SweptWheel::SweptWheel(const SweptPart& part, std::vector<Vec3> x)
     : part_(part), faces_(part.faces, std::move(x), part.sector.n_sectors) {
@@ -75,12 +68,37 @@ double SweptWheel::find_rubber(std::span<const Vec3> u, double angle,
   return energy;
 }
 
-double stored_energy(const Model& model, std::span<const Vec3> u) {
+void SweptWheel::save(std::vector<double>& numbers) const {
+  numbers.insert(numbers.end(), weight_.begin(), weight_.end());
+  numbers.insert(numbers.end(), energy_.begin(), energy_.end());
+}
+
+void SweptWheel::restore(std::span<const double> numbers) {
+  RONDO_DEMAND(numbers.size() == 2 * weight_.size(), numbers.size(), weight_.size());
+  std::ranges::copy(numbers.first(weight_.size()), weight_.begin());
+  std::ranges::copy(numbers.last(weight_.size()), energy_.begin());
+}
+
+SweptWheel swept_wheel(const Model& model) {
+  RONDO_DEMAND(model.solid && model.solid->swept, model.n_nodes());
+  std::vector<Vec3> x;
+  for (std::size_t k = 0; k < model.n_nodes(); ++k)
+    x.emplace_back(model.reference[k], model.solid->axial[k]);
+  return {*model.solid->swept, std::move(x)};
+}
+
+double stored_energy(const Model& model, std::span<const Vec3> u, double angle) {
   std::vector<Vec3> force(model.n_nodes());
-  fem::apply(model.solid->linear(), u, force);
-  double linear = 0.0;
-  for_free_nodes(model, [&](std::size_t k) { linear += 0.5 * dot(u[k], force[k]); });
-  return linear + swept_forces(model).add_to(u, force);
+  return swept_wheel(model).find(u, angle, force);
+}
+
+bool has_window(const Model& model) noexcept {
+  return model.solid && model.solid->swept && model.solid->swept->rubber &&
+         !model.solid->swept->window.is_whole();
+}
+
+std::size_t window_numbers(const Model& model) noexcept {
+  return has_window(model) ? 2 + 2 * static_cast<std::size_t>(model.solid->sector.n_sectors) : 0;
 }
 
 }  // namespace rondo::dynamics

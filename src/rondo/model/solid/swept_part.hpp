@@ -12,9 +12,6 @@
 
 namespace rondo::dynamics {
 
-/// @pre model.solid->swept
-[[nodiscard]] fem::finite::SweptForces swept_forces(const Model& model);
-
 /// All forces of a wheel at a displacement from its state.
 class SweptWheel {
  public:
@@ -33,6 +30,11 @@ class SweptWheel {
   /// entered, less what it took from those that left [J].
   [[nodiscard]] double window_work() const noexcept { return window_work_; }
 
+  /// Appends weight and energy of each column at the last place, which window_work() needs.
+  void save(std::vector<double>& numbers) const;
+  /// @param numbers (2 n_sectors)
+  void restore(std::span<const double> numbers);
+
  private:
   double find_rubber(std::span<const Vec3> u, double angle, std::span<Vec3> force) noexcept;
 
@@ -43,7 +45,16 @@ class SweptWheel {
   double window_work_ = 0.0;
 };
 
+/// @pre model.solid->swept
+[[nodiscard]] SweptWheel swept_wheel(const Model& model);
+
 /// What is stored at u more than in the state, in rubber, cords and air [J].
-[[nodiscard]] double stored_energy(const Model& model, std::span<const Vec3> u);
+/// @param angle by which the wheel has turned [rad]
+[[nodiscard]] double stored_energy(const Model& model, std::span<const Vec3> u, double angle);
+
+/// Whether columns enter and leave a window, which does work on the rubber.
+[[nodiscard]] bool has_window(const Model& model) noexcept;
+/// Size of SavedState::window.
+[[nodiscard]] std::size_t window_numbers(const Model& model) noexcept;
 
 }  // namespace rondo::dynamics

@@ -29,6 +29,8 @@ constexpr std::array names{
     FeatureName{has::rubber | has::pressure | has::sharp_corners,
                 "pressure on rubber with sharp corners of the ground"},
     FeatureName{has::three_dimensions | has::nonlinear_cords, "nonlinear cords and air of a tyre"},
+    FeatureName{has::three_dimensions | has::nonlinear_ogden,
+                "nonlinear rubber of a tyre by Ogden's law"},
     FeatureName{has::own_material, "rubber in triangles, or a material of your own"},
     FeatureName{has::implicit, "implicit elements"},
     FeatureName{has::massless, "contact nodes without mass"},
@@ -84,6 +86,8 @@ constexpr std::array limits{
           "the forces of rubber at finite strain are no product with a stiffness"},
     Limit{has::rubber, has::pressure | has::sharp_corners, sparse,
           "with sharp corners the step does not support pressures that follow the edges of rubber"},
+    Limit{has::nonlinear_ogden, 0, bit(StepKind::solid_cyclic),
+          "the step has rubber of polynomial laws, not of Ogden's, whose powers are slow"},
     Limit{has::own_material, 0, fused,
           "the forces of the material are no product with a stiffness"},
     Limit{has::implicit, 0, bodies, "the step has no implicit elements"},
@@ -206,6 +210,12 @@ constexpr std::array limits{
     Limit{has::friction_law, has::reduced, any, "a reduced wheel has one coefficient of friction"},
 };
 
+bool has_ogden(const SweptPart& part) noexcept {
+  return part.rubber && std::ranges::any_of(part.rubber->rubbers, [](const fem::Rubber& r) {
+           return r.law == fem::RubberLaw::ogden;
+         });
+}
+
 }  // namespace
 
 std::span<const FeatureName> feature_names() noexcept {
@@ -263,6 +273,7 @@ Features features_of(const Model& m) noexcept {
   add(m.rubber.has_value(), has::rubber);
   add(m.internal_force && !m.rubber, has::own_material);
   add(m.solid && m.solid->swept, has::nonlinear_cords);
+  add(m.solid && m.solid->swept && has_ogden(*m.solid->swept), has::nonlinear_ogden);
   add(m.implicit.has_value(), has::implicit);
   add(has_massless_contact(m), has::massless);
   add(m.contact && m.contact->law.restitution > 0.0, has::restitution);

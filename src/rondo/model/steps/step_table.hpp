@@ -42,6 +42,7 @@ enum Feature : Features {
   reduced = 1U << 20,            ///< a run of a reduced wheel
   friction_law = 1U << 21,       ///< friction that is no constant
   nonlinear_cords = 1U << 22,    ///< SolidBody::swept
+  nonlinear_ogden = 1U << 23,    ///< SweptPart::rubber, by that law
 };
 }  // namespace has
 

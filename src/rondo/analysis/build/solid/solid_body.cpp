@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "rondo/analysis/build/ground/contact_law.hpp"
@@ -133,6 +134,15 @@ std::string range_text(const dynamics::Table& table) {
                      degrees * high);
 }
 
+std::string motion_text(const dynamics::SweptPart& part) {
+  if (!part.rubber) return "cords and air nonlinear, rubber linear about the state";
+  if (part.window.is_whole()) return "cords, air and rubber nonlinear";
+  return fmt::format(
+      "cords and air nonlinear, rubber within {:.4g} rad ({:.4g}°) of the lowest point, else "
+      "linear about the state",
+      part.window.half, 180.0 / std::numbers::pi * part.window.half);
+}
+
 }  // namespace
 
 void add_solid_pressures(const Case& c, const mesh::Mesh& mesh, dynamics::SolidBody& body) {
@@ -192,8 +202,7 @@ void tell_solid_figures(const Case& c, Setup& s) {
                                               s.mesh.n_sectors, 3 * local, width_of(s.mesh)));
   if (s.inflation)
     for (Told& line : told_of(*s.inflation)) s.figures.push_back(std::move(line));
-  if (s.model.solid->swept)
-    s.figures.emplace_back("motion", "cords and air nonlinear, rubber linear about the state");
+  if (s.model.solid->swept) s.figures.emplace_back("motion", motion_text(*s.model.solid->swept));
   if (c.motion.slip_angle.largest() != 0.0)
     s.figures.emplace_back("slip angle", range_text(c.motion.slip_angle));
   if (c.motion.camber != 0.0)

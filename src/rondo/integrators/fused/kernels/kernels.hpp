@@ -35,6 +35,11 @@ enum RubberSum {
   sum_linear,                   ///< u·K u of the linear elements
   n_rubber_sums
 };
+/// In three dimensions one more.
+enum SolidRubberSum {
+  sum_window = n_rubber_sums,  ///< twice what the motion of a window does to its rubber
+  n_solid_rubber_sums
+};
 
 /// Sums over the nodes of a step on a loaded rim, co-rotating frame, before the factors of (10.5):
 /// a of V in the axes of R_{n+1} before (a⁻) and after (a⁺), p = K u_{n+1}, d = u_{n+1} - u_n, e =
@@ -78,10 +83,11 @@ enum SolidWheelSum {
   wheel_load,           ///< f·(a⁻ + a⁺), f of the pressures
   wheel_rest,           ///< u × f of the forces of the state at rest
   wheel_force_moved_z,  ///< p·d along the axle
+  wheel_window,         ///< as sum_window
   n_solid_wheel_sums
 };
 inline constexpr int most_sums = n_solid_wheel_sums;
-static_assert(int{n_sums} <= most_sums && int{n_rubber_sums} <= most_sums &&
+static_assert(int{n_sums} <= most_sums && int{n_solid_rubber_sums} <= most_sums &&
               int{n_wheel_sums} <= most_sums && int{n_rubber_wheel_sums} <= most_sums);
 
 /// The factors that all nodes of a step on a loaded rim share, for forces and velocities.

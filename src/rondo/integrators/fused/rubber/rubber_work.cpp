@@ -12,7 +12,7 @@ RubberWork::RubberWork(const Model& model, const State& start) : model_(model) {
   RONDO_DEMAND(start.force.size() == model.n_nodes() && start.v_next.size() == model.n_nodes(),
                start.force.size(), start.v_next.size(), model.n_nodes());
   if (model.solid)
-    begin<Vec3>(stored_energy(model, start.u), start);
+    begin<Vec3>(stored_energy(model, start.u, start.frame.angle), start);
   else
     begin<Vec2>(make_internal_force(model, start.u, start.poses)->material().stored_energy, start);
 }
@@ -28,8 +28,11 @@ void RubberWork::begin(double stored, const State& start) {
 /// @param linear u·K u of the linear elements [J/m]
 MaterialReport RubberWork::report(const RubberEnergy& energy, double linear, double work) noexcept {
   dissipation_.add(energy.dissipation_before);
-  const MaterialReport found{work, energy.stored + 0.5 * linear, dissipation_.value(),
-                             energy.least};
+  const MaterialReport found{.internal_work = work,
+                             .stored_energy = energy.stored + 0.5 * linear,
+                             .window_work = window_.value(),
+                             .dissipation_viscous = dissipation_.value(),
+                             .least_volume = energy.least};
   dissipation_.add(energy.dissipation_after);
   return found;
 }
@@ -39,6 +42,7 @@ MaterialReport RubberWork::add(const RubberEnergy& energy, WholeStep& step) noex
   step.energy.strain = work_.value();
   const double work = work_.value() + half * step.sums[kernels::sum_force_before];
   work_.add(half * step.sums[kernels::sum_mean_force]);
+  if (model_.solid) window_.add(0.5 * step.sums[kernels::sum_window]);
   return report(energy, step.sums[kernels::sum_linear], work);
 }
 
@@ -47,11 +51,21 @@ MaterialReport RubberWork::add(const RubberEnergy& energy, const StepSums& sums,
   step.strain = work_.value() + 0.5 * sums[kernels::wheel_strain];
   work_.add(0.5 * (sums[kernels::wheel_strain] + sums[kernels::wheel_force_moved] +
                    sums[kernels::wheel_force_moved_z]));
+  window_.add(0.5 * sums[kernels::wheel_window]);
   return report(energy, sums[kernels::wheel_linear], work_.value());
 }
 
 std::vector<double> RubberWork::save() const {
   return {work_.sum(), work_.correction(), dissipation_.sum(), dissipation_.correction()};
+}
+
+void RubberWork::save_window(std::span<double> numbers) const noexcept {
+  numbers[0] = window_.sum();
+  numbers[1] = window_.correction();
+}
+
+void RubberWork::restore_window(std::span<const double> numbers) noexcept {
+  window_ = CompensatedSum(numbers[0], numbers[1]);
 }
 
 void RubberWork::restore(std::span<const double> numbers) {

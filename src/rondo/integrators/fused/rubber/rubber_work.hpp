@@ -24,6 +24,9 @@ class RubberWork {
 
   [[nodiscard]] std::vector<double> save() const;
   void restore(std::span<const double> numbers);
+  /// The first two of SavedState::window.
+  void save_window(std::span<double> numbers) const noexcept;
+  void restore_window(std::span<const double> numbers) noexcept;
 
  private:
   template <class Vec>
@@ -33,6 +36,7 @@ class RubberWork {
   const Model& model_;
   /// Without a loaded rim at the last half step, from v̄·f of whole steps; with one at t_n. [J/m]
   CompensatedSum work_;
+  CompensatedSum window_;       ///< W, of a wheel with a window [J]
   CompensatedSum dissipation_;  ///< to the end of the last step's half step after [J/m]
 };
 

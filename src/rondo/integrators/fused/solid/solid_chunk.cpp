@@ -13,7 +13,9 @@ SolidChunk::SolidChunk(const Model& model, const SolidPlan& plan, const kernels:
     : RingChunk(model, plan, range, model.solid->sector.turn, kernels::solid_rows),
       plan_(plan),
       table_(table),
-      faces_(plan.faces ? plan.faces->size(plan) : 0) {}
+      faces_(plan.faces ? plan.faces->size(plan) : 0) {
+  if (plan.rubber) window_.emplace(*plan.rubber, plan, range_);
+}
 
 /// Force of the pressures on a node of a row, in its frame.
 Vec3 SolidChunk::load_on(const Work& work, int row) const noexcept {
@@ -93,6 +95,8 @@ kernels::SolidStrip SolidChunk::strip_of(const Work& work, const SolidPlanStrip&
   s.step = &work.factors;
   s.wheel = &work.step->wheel;
   s.swept = plan_.faces ? faces_.data() + RingLayout::lead : nullptr;
+  s.rubber = window_ ? window_->forces() : nullptr;
+  s.has_rubber = window_ ? window_->is_shown() : nullptr;
   s.n_sums = plan_.n_sums;
   s.sums = sums_of(work.place);
   if (!plan_.loads.empty())
@@ -115,6 +119,15 @@ void SolidChunk::find_faces(int now) noexcept {
   s.sum = plan_.wheel ? int{kernels::wheel_linear} : int{kernels::sum_linear};
   s.sums = sums_of(0);
   table_.faces(s);
+}
+
+/// Those of the rubber beyond its tangent.
+void SolidChunk::find_rubber(int now, double angle) noexcept {
+  window_->find(table_, field(0, now), angle);
+  if (plan_.wheel)
+    window_->add_sums(sums_of(0), kernels::wheel_linear, kernels::wheel_window);
+  else
+    window_->add_sums(sums_of(0), kernels::sum_linear, kernels::sum_window);
 }
 
 void SolidChunk::strip(const Work& work, int i) noexcept {
@@ -145,6 +158,7 @@ void SolidChunk::pass(std::span<const StepContext> steps, PartialStep* parts,
   if (plan_.faces) {
     RONDO_ASSERT(n == 1, n);
     find_faces(work[0].now);
+    if (window_) find_rubber(work[0].now, steps[0].frame.angle);
   }
   walk(std::span<const Work>(work.data(), n), [this](const Work& w, int i) { strip(w, i); });
   end_pass(n, parts, stride);

@@ -2,6 +2,7 @@
 /// @file  Fields of some sectors of a wheel in three dimensions, and their steps; on a loaded rim,
 /// too.
 #pragma once
+#include <optional>
 #include <span>
 
 #include "rondo/integrators/fused/ring_chunk.hpp"
@@ -21,6 +22,10 @@ class SolidChunk : public RingChunk<3> {
   /// @pre the halo is taken
   void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride) noexcept;
 
+  /// Weights and energies of columns in a window (SolidWindow); there is one.
+  void save_window(std::span<double> numbers) const noexcept { window_->save(numbers); }
+  void restore_window(std::span<const double> numbers) noexcept { window_->restore(numbers); }
+
   /// On a loaded rim, after pass(): u_{n+2}, once the rim's own way is known; gives the edges.
   void go_on(const kernels::WheelWay& way) noexcept;
 
@@ -37,6 +42,7 @@ class SolidChunk : public RingChunk<3> {
   [[nodiscard]] Vec3 initial_force(const State& state, int row, int column) const noexcept;
   void load_on_rim(const State& state);
   void find_faces(int now) noexcept;
+  void find_rubber(int now, double angle) noexcept;
   [[nodiscard]] kernels::SolidStrip strip_of(const SolidPlanStrip& p, int now, int next) noexcept;
   [[nodiscard]] kernels::SolidStrip strip_of(const Work& work, const SolidPlanStrip& p) noexcept;
   void strip(const Work& work, int i) noexcept;
@@ -49,7 +55,8 @@ class SolidChunk : public RingChunk<3> {
 
   const SolidPlan& plan_;
   const kernels::SolidTable& table_;
-  LargeArray faces_;  ///< forces of cords and air
+  LargeArray faces_;                   ///< forces of cords and air
+  std::optional<SolidWindow> window_;  ///< of nonlinear rubber
 };
 
 }  // namespace rondo::dynamics

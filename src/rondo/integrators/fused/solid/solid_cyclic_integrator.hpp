@@ -15,6 +15,8 @@ class SolidCyclicIntegrator final : public RingIntegrator<SolidChunk, SolidPlan>
 
  private:
   void make_steps(const Batch& batch, Share share) noexcept override;
+  void save_fields(SavedState& saved) const noexcept override;
+  void restore_fields(const SavedState& saved) noexcept override;
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
   // These do nothing: three dimensions have no corners between two nodes here.
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;

@@ -145,6 +145,7 @@ void add_rows(const Model& model, SolidPlan& plan) {
                          .rest_x = 0.0,
                          .rest_y = 0.0,
                          .swept = -1,
+                         .rubber = SolidRubberPlan::place(static_cast<int>(a), plan),
                          .of_state = {}});
   }
 }
@@ -198,7 +199,7 @@ SolidPlan make_solid_plan(const Model& model, const SolidTuning& tuning) {
   plan.wheel = plan.stepwise = model.rim.has_value();
   plan.keeps_force = plan.wheel || swept || model.stiffness_damping > 0.0;
   plan.n_sums = plan.wheel ? int{kernels::n_solid_wheel_sums}
-                : swept    ? int{kernels::n_rubber_sums}
+                : swept    ? int{kernels::n_solid_rubber_sums}
                            : int{kernels::n_sums};
   plan.group_columns = solid_group_columns;
   plan.ordered = order_sector(model);

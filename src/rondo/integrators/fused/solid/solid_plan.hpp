@@ -10,6 +10,7 @@
 #include "rondo/integrators/fused/solid/solid_faces.hpp"
 #include "rondo/integrators/fused/solid/solid_order.hpp"
 #include "rondo/integrators/fused/solid/solid_rows.hpp"
+#include "rondo/integrators/fused/solid/solid_rubber.hpp"
 
 namespace rondo::dynamics {
 
@@ -31,8 +32,9 @@ struct SolidPlan : RingLayout {
   std::vector<SolidPlanStrip> strips;
   /// (pressures, n_local) force per pressure of each row, in its frame; nothing: no pressure  [m²]
   std::vector<std::vector<Vec3>> loads;
-  std::optional<SolidFacesPlan> faces;  ///< cords and air that are nonlinear
-  double energy_of_state = 0.0;         ///< of the faces of a sector [J]
+  std::optional<SolidFacesPlan> faces;    ///< cords and air that are nonlinear
+  double energy_of_state = 0.0;           ///< of the faces of a sector [J]
+  std::optional<SolidRubberPlan> rubber;  ///< that is nonlinear
 };
 
 /// More than of a disk: a wheel has more rows between two steps of a pass, and more bytes a node.

@@ -4,5 +4,6 @@
 #include "rondo/integrators/fused/kernels/solid/table.hpp"
 
 namespace rondo::dynamics::kernels {
-constinit const SolidTable avx2_solid = solid_table(avx2_solid_wheel, avx2_solid_faces);
+constinit const SolidTable avx2_solid =
+    solid_table(avx2_solid_wheel, avx2_solid_faces, avx2_solid_rubber, avx2_solid_rubber_state);
 }  // namespace rondo::dynamics::kernels

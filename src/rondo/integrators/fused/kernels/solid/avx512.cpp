@@ -4,5 +4,6 @@
 #include "rondo/integrators/fused/kernels/solid/table.hpp"
 
 namespace rondo::dynamics::kernels {
-constinit const SolidTable avx512_solid = solid_table(avx512_solid_wheel, avx512_solid_faces);
+constinit const SolidTable avx512_solid = solid_table(
+    avx512_solid_wheel, avx512_solid_faces, avx512_solid_rubber, avx512_solid_rubber_state);
 }  // namespace rondo::dynamics::kernels

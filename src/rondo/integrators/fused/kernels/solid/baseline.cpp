@@ -4,5 +4,6 @@
 #include "rondo/integrators/fused/kernels/solid/table.hpp"
 
 namespace rondo::dynamics::kernels {
-constinit const SolidTable baseline_solid = solid_table(baseline_solid_wheel, baseline_solid_faces);
+constinit const SolidTable baseline_solid = solid_table(
+    baseline_solid_wheel, baseline_solid_faces, baseline_solid_rubber, baseline_solid_rubber_state);
 }  // namespace rondo::dynamics::kernels

@@ -65,6 +65,7 @@ struct SolidRow {
   double turn_x, turn_y;  ///< its frame in that of its sector
   double rest_x, rest_y;  ///< force of the state at rest, on a loaded rim                 [N]
   std::ptrdiff_t swept;   ///< place of its forces in SolidFaces::force; -1: it has none
+  std::ptrdiff_t rubber;  ///< place in SolidRubber::force
   double of_state[3];     ///< force of cords and air in the state                         [N]
 };
 
@@ -100,6 +101,8 @@ struct SolidStrip {
   const WheelFactors* wheel;   ///< instead of `step`, on a loaded rim
   const WheelWay* way;         ///< read by SolidWheelTable::way alone
   const double* swept;         ///< forces of cords and air (SolidFaces::force); null: K u is all
+  const double* rubber;        ///< forces of rubber (SolidRubber::force); null: it is linear
+  const char* has_rubber;      ///< of the packs: these are to be added there
   int n_sums;                  ///< of a group
   double* sums;                ///< (groups of solid_packs, n_sums, lanes): added to
   double load[solid_rows][3];  ///< force on each node of a row, unused by kernels without [N]
@@ -140,6 +143,41 @@ struct SolidFaces {
   double* sums;  ///< (groups, n_sums, lanes): twice the energy is added to number `sum`
 };
 
+/// Modes of an element that are not those of its middle: along ξ, η, ζ, of their products.
+inline constexpr int n_solid_modes = 7;
+/// Share of each of eight corners in a mode that the points of an element see with factors of ±1.
+struct SolidModeShares {
+  double one, two, three;  ///< by the number of coordinates in the product
+};
+/// An element of rubber that is swept from a sector to the next. Modes are those of the corners,
+/// with three components in the frame of the element; points by x + 2 y + 4 z.
+struct SolidRubberElement {
+  SolidFaceCorner corner[8];
+  double rest[3 * n_solid_modes];           ///< modes of x in the state                [m]
+  double metric[8][6], cometric[8][6];      ///< xx, yy, zz, xy, yz, zx of I₁, and of I₂
+  double volume[8], whole_volume;           ///< undeformed [m³]
+  double bulk, c10, c20, c30, c01;          ///< [Pa]
+  double energy, force[3 * n_solid_modes];  ///< in the state, its forces on the modes  [J], [N]
+  double stiffness[9 * n_solid_modes * n_solid_modes];  ///< there, of modes              [N/m]
+};
+/// All elements of a chunk, and the columns in which they have a weight.
+struct SolidRubber {
+  const SolidRubberElement* elements;
+  int n_elements;
+  SolidModeShares shares;
+  const int* packs;  ///< that have columns with a weight, -1 among them
+  int n_packs;
+  const int* cleared;  ///< packs of `force` that are set to 0 before
+  int n_cleared;
+  const double* weight;  ///< of the columns, from 0 on; padded to whole packs from -1 on
+  const double* mask;    ///< 1 where there is a weight, else 0
+  const double* now;     ///< u_{n+1}
+  double* force;         ///< as that of SolidFaces, of all rows
+  int n_rows;            ///< of `force`
+  std::ptrdiff_t stride;
+  double* energy;  ///< of the columns, without the weight: added to [J]
+};
+
 /// Sectors of a row that may touch: place of the node along n <= limit.
 struct SolidHeight {
   const double* u;  ///< u_r of sector 0 of the chunk; u_t and u_z are `stride` and 2 `stride` on
@@ -154,7 +192,8 @@ struct SolidHeight {
 };
 
 static_assert(std::is_trivial_v<SolidCordFace> && std::is_trivial_v<SolidAirFace> &&
-              std::is_trivial_v<SolidFaces>);
+              std::is_trivial_v<SolidFaces> && std::is_trivial_v<SolidRubberElement> &&
+              std::is_trivial_v<SolidRubber>);
 static_assert(std::is_trivial_v<SolidEntry> && std::is_trivial_v<SolidRow> &&
               std::is_trivial_v<SolidFactors> && std::is_trivial_v<SolidStrip> &&
               std::is_trivial_v<SolidHeight>);
@@ -174,12 +213,20 @@ struct SolidTable {
   int (*low_columns)(const SolidHeight&, int* columns) noexcept;
   const SolidWheelTable* wheel;
   void (*faces)(const SolidFaces&) noexcept;
+  void (*rubber)(const SolidRubber&) noexcept;
+  void (*rubber_state)(SolidRubberElement&) noexcept;
 };
 
 /// In files of their own.
 void avx512_solid_faces(const SolidFaces& faces) noexcept;
 void avx2_solid_faces(const SolidFaces& faces) noexcept;
 void baseline_solid_faces(const SolidFaces& faces) noexcept;
+void avx512_solid_rubber(const SolidRubber& rubber) noexcept;
+void avx2_solid_rubber(const SolidRubber& rubber) noexcept;
+void baseline_solid_rubber(const SolidRubber& rubber) noexcept;
+void avx512_solid_rubber_state(SolidRubberElement& element) noexcept;
+void avx2_solid_rubber_state(SolidRubberElement& element) noexcept;
+void baseline_solid_rubber_state(SolidRubberElement& element) noexcept;
 
 extern const SolidWheelTable avx512_solid_wheel, avx2_solid_wheel, baseline_solid_wheel;
 extern const SolidTable avx512_solid, avx2_solid, baseline_solid;

@@ -155,13 +155,20 @@ template <bool Tail, bool Loaded, bool Beta, bool Unsteady>
   if constexpr (Beta) store_space(p, s.stride, n.force);
 }
 
-/// Adds the forces of cords and air on a pack of a row to those of K. @return u·(K u - 2 f), f
-/// those of the state: with twice the energy of the faces it is twice the stored one
+/// Adds the forces of rubber, cords and air on a pack of a row to those of K. @return u·(K u - 2
+/// f), f those of the state: with twice the energy of the faces it is twice the stored one
 inline Pack add_swept(const SolidStrip& s, const SolidRow& row, std::ptrdiff_t column,
                       double* force) noexcept {
   const Space u = load_space(s.now + row.at + column, s.stride);
   Space f = load_space(force, most_packs * lanes);
   const Pack linear = add_dot(u, f, all(0.0));
+  if (s.rubber && s.has_rubber[column / lanes]) {
+    const double* const here = s.rubber + row.rubber + column;
+    const Space own = load_space(here, s.stride),
+                last = load_space(here + 3 * s.stride - 1, s.stride);
+    f = {f.r + (own.r + last.r), f.t + (own.t + last.t), f.z + (own.z + last.z)};
+    if (row.swept < 0) store_space(force, most_packs * lanes, f);
+  }
   if (row.swept < 0) return linear;
   const double* const here = s.swept + row.swept + column;
   const Space own = load_space(here, s.stride),

@@ -26,14 +26,18 @@ int solid_low_columns(const rondo::dynamics::kernels::SolidHeight& h, int* colum
 
 constexpr rondo::dynamics::kernels::SolidTable solid_table(
     const rondo::dynamics::kernels::SolidWheelTable& wheel,
-    void (*faces)(const rondo::dynamics::kernels::SolidFaces&) noexcept) noexcept {
+    void (*faces)(const rondo::dynamics::kernels::SolidFaces&) noexcept,
+    void (*rubber)(const rondo::dynamics::kernels::SolidRubber&) noexcept,
+    void (*rubber_state)(rondo::dynamics::kernels::SolidRubberElement&) noexcept) noexcept {
   return {{{{solid_strip<false, false, false>, solid_strip<false, false, true>},
             {solid_strip<false, true, false>, solid_strip<false, true, true>}},
            {{solid_strip<true, false, false>, solid_strip<true, false, true>},
             {solid_strip<true, true, false>, solid_strip<true, true, true>}}},
           solid_low_columns,
           &wheel,
-          faces};
+          faces,
+          rubber,
+          rubber_state};
 }
 
 }  // namespace
