@@ -4,6 +4,7 @@ import unittest
 
 from program import ROOT, SMALL, ProgramTest, replaced, run, summary
 from schemas import errors, main, needs_jsonschema, schema
+from test_tyre_steady_nonlinear import RADIUS, rolling
 
 STILL = SMALL[:SMALL.index("[motion]")] + SMALL[SMALL.index("[ground]"):]
 CRUSH = ["analysis.kind=crush", "analysis.depth=0.002", "analysis.increments=2"]
@@ -79,6 +80,8 @@ class Members(ProgramTest):
         self.made("modes", "modes", case, "--count", "2", "--diameters", "2")
         self.assertEqual(run("reduce", self.folder / "plain", "-o", wheel, "--modes", 5).returncode, 0)
         self.made("wheel-of-a-file", "run", case, "--reduced", wheel, "--set", BRIEF)
+        tyre = self.case(rolling(RADIUS - 1e-3, more="speed = 3.1e-4"))
+        self.made("tyre-steady", "run", tyre, "--set", "inflation.nonlinear=cords")
         self.assertEqual({path for path, _ in known(schema("run.json"))} - self.seen, set())
 
     def test_each_has_a_meaning(self):

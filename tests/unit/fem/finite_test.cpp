@@ -337,6 +337,20 @@ TEST(SweptForces, OfAWheelAreTheGradientOfItsEnergy) {
       const double slope = (wheel.add_to(more, unused) - wheel.add_to(less, unused)) / (2.0 * h);
       EXPECT_NEAR(slope, component(force[k], c), 1e-7 * largest) << k << " " << c;
     }
+  // The cords keep their sign of strain over h, so that the tangent is the change of the forces.
+  std::vector<Vec3> change(x.size()), after(x.size()), before(x.size());
+  const std::vector<Vec3> way = at_random(x.size(), 1.0, 8);
+  const std::vector<double> every(n_sectors, 1.0);
+  wheel.tangent(u, every, [&](std::size_t f, std::size_t move, const Eigen::Matrix3d& block) {
+    const Eigen::Vector3d more = block * Eigen::Vector3d(way[move].x, way[move].y, way[move].z);
+    change[f] += Vec3(more[0], more[1], more[2]);
+  });
+  std::vector<Vec3> more = u, less = u;
+  for (std::size_t k = 0; k < u.size(); ++k) more[k] += h * way[k], less[k] -= h * way[k];
+  wheel.add_to(more, after);
+  wheel.add_to(less, before);
+  for (std::size_t k = 0; k < u.size(); ++k)
+    EXPECT_LT(norm(0.5 / h * (after[k] - before[k]) - change[k]), 1e-5 * norm(change[k])) << k;
 }
 
 /// A turn of the whole wheel stores nothing in cords, and turns all forces with it.

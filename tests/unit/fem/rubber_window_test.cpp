@@ -115,6 +115,25 @@ TEST(RubberRemainder, ForcesAreTheGradientOfItsEnergy) {
     }
 }
 
+TEST(RubberRemainder, ItsTangentIsTheChangeOfItsForces) {
+  const RubberRemainder wheel = wheel_about(at_random(n_nodes, 0.03, 13));
+  const std::vector<Vec3> u = at_random(n_nodes * n_sectors, 0.03, 14),
+                          way = at_random(n_nodes * n_sectors, 1.0, 15);
+  std::vector<Vec3> change(u.size());
+  wheel.tangent(u, some, [&](std::size_t force, std::size_t move, const Eigen::Matrix3d& block) {
+    const Eigen::Vector3d f = block * Eigen::Vector3d(way[move].x, way[move].y, way[move].z);
+    change[force] += Vec3(f[0], f[1], f[2]);
+  });
+  constexpr double h = 1e-5;
+  auto more = u, less = u;
+  for (std::size_t k = 0; k < u.size(); ++k) more[k] += h * way[k], less[k] -= h * way[k];
+  const Found after = find(wheel, more, some), before = find(wheel, less, some);
+  const double scale = largest(change);
+  EXPECT_GT(scale, 0.1);
+  for (std::size_t k = 0; k < u.size(); ++k)
+    EXPECT_LT(norm(0.5 / h * (after.force[k] - before.force[k]) - change[k]), 1e-6 * scale) << k;
+}
+
 /// The tangent is that of the state: what is left is of second order, its energy of third.
 TEST(RubberRemainder, IsOfSecondOrder) {
   const RubberRemainder wheel = wheel_about(at_random(n_nodes, 0.03, 5));

@@ -10,7 +10,7 @@
 #include "rondo/mesh/mesh.hpp"
 #include "rondo/model/solid/swept_part.hpp"
 #include "rondo/statics/steady/finite_rolling.hpp"
-#include "rondo/statics/steady/local_stiffness.hpp"
+#include "rondo/statics/local_stiffness.hpp"
 
 namespace rondo::study {
 

@@ -145,6 +145,8 @@ template RollingSolution solve_rolling(RollingWindow<2>&, const RollingDrive&,
                                        const RollingStatuses&);
 template RollingSolution solve_rolling(RollingWindow<3>&, const RollingDrive&,
                                        const RollingStatuses&);
+template RollingSolution solve_rolling_from(RollingWindow<2>&, const RollingDrive&,
+                                            const RollingSolution&);
 template RollingSolution solve_rolling_from(RollingWindow<3>&, const RollingDrive&,
                                             const RollingSolution&);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/statics/steady/local_stiffness.hpp"
+#include "rondo/statics/local_stiffness.hpp"
 
 #include <Eigen/CholmodSupport>
 
