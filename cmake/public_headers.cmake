@@ -17,6 +17,7 @@ set(RONDO_INCLUDED_HEADERS
     analysis/build/bodies.hpp io/h5/h5.hpp io/h5/hash.hpp
     fem/element.hpp fem/nodal_dilatation.hpp fem/rubber.hpp
     fem/finite/cord_face.hpp fem/finite/energy.hpp fem/finite/swept_forces.hpp fem/finite/swept_section.hpp
+    fem/finite/swept_rubber.hpp fem/finite/take_block.hpp fem/solid/hexahedron.hpp
     fem/hyperelastic/numbers.hpp fem/hyperelastic/laws.hpp fem/hyperelastic/branch.hpp
     fem/hyperelastic/element.hpp fem/hyperelastic/stress.hpp modal/critical_speeds.hpp modal/modes.hpp
     contact/box_tree.hpp contact/friction.hpp contact/law.hpp contact/coupled/band.hpp contact/coupled/block.hpp contact/coupled/coupled.hpp

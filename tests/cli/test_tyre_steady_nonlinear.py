@@ -72,7 +72,7 @@ class SteadyNonlinear(TyreTest):
         self.assertTrue((history(self.results)["strain"] > 0.0).all())
 
     def test_what_is_not_balanced_is_told(self):
-        text = rolling(RADIUS - 0.09, more="speed = 3.1e-4").replace("sectors = 90", "sectors = 30")
+        text = rolling(RADIUS - 0.09, more="speed = 3.1e-4").replace("sectors = 90", "sectors = 24")
         done = run("run", self.case(text), "-o", self.results, "--quiet", *ALL)
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("the nonlinear forces (inflation.nonlinear) were not balanced", done.stderr)

@@ -173,6 +173,8 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
   state_ = start(setup_.model, std::move(setup_.displacement), std::move(setup_.velocity),
                  std::exchange(setup_.half_velocity, {}));
   strain_.emplace(setup_.mesh, setup_.materials, &setup_.model);
+  const auto& solid = setup_.model.solid;
+  if (solid && solid->swept && solid->swept->rubber) strain_->take_large_strains();
   if (!from_) record_state(recorder);
   Field v = since_pause_ ? state_.v : Field();
   start_integrator();

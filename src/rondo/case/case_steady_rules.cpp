@@ -91,7 +91,8 @@ void check_samples(CaseValues& in, Case& c) {
     a.samples_per_sector = treaded ? 8 : c.section && !c.inflation ? 2 : 4;
   if (c.inflation && !in.has("analysis.inertia")) a.inertia = RollingMasses::waves;
   if (c.inflation && !in.has("analysis.estimate_slip_error")) a.estimate_slip_error = true;
-  if (c.inflation && a.samples_per_sector == 1)
+  const bool rubs = !c.ground || c.ground->friction > 0.0;
+  if (c.inflation && rubs && a.samples_per_sector == 1)
     c.warnings.emplace_back(
         "analysis.samples_per_sector = 1: a node that is seen closed for the first time counts as "
         "having stuck for a whole sector, and the lateral force of a tyre is too large; 4");

@@ -128,7 +128,7 @@ void StrainWatch::summarise(const TimeWords& words, Json& j, RunReport& r) const
               j);
   r.strain_max = found.strain;
   r.jacobian_min = found.jacobian;
-  if (found.linear_strain <= small_strain) return;
+  if (large_ || found.linear_strain <= small_strain) return;
   const std::string warning = small_strain_warning(words);
   j["warnings"].push_back(warning);
   r.warnings.push_back(warning);

@@ -41,6 +41,8 @@ class StrainWatch {
   StrainWatch(const mesh::Mesh& mesh, std::span<const fem::Material> materials,
               const dynamics::Model* model = nullptr);
 
+  /// No law is one of small strains.
+  void take_large_strains() noexcept { large_ = true; }
   /// @param u (n) finite [m] @param poses (free_bodies)
   /// @return the trouble: the inverted cell, with its place; empty: there is none
   std::string look(const Field& u, std::span<const dynamics::Pose> poses, double time);
@@ -61,7 +63,8 @@ class StrainWatch {
 
   const mesh::Mesh& mesh_;
   const dynamics::Model* model_;
-  std::vector<char> rubber_;   ///< (cells) 1: of rubber, whose strains may be large; empty: none is
+  std::vector<char> rubber_;  ///< (cells) 1: of rubber, whose strains may be large; empty: none is
+  bool large_ = false;
   std::vector<Vec2> elastic_;  ///< (n) where bodies are free
   fem::LargestDeformation largest_;
 };

@@ -41,6 +41,7 @@ class SteadyRolling final : public Analysis {
         body_(rolled_body(c, options.shared)),
         ground_(c.ground->shape),
         strain_(body_->mesh, body_->materials) {
+    if (c.inflation && c.inflation->nonlinear >= TyreMotion::window) strain_.take_large_strains();
     refuse_held_in_ground(c, body_->mesh);
     tell_physical_figures(c, {body_->mesh, body_->materials, body_->inflation}, told_);
     if (options.resume)

@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 constexpr std::size_t depth = 24;
-constexpr int most_turns = 300;
+constexpr int most_turns = 200;
 constexpr int turns_without_gain = 40;  // that do not halve the residual
 // The stiffness near the ground is factored after so many turns, far out of balance and near.
 constexpr double far_out_of_balance = 5e-3;

@@ -36,8 +36,8 @@ std::string deeply_pressed(const std::string& key, double deflection, const Wall
   if (share <= deep_tyre_share) return {};
   return fmt::format(
       "{}: the rim comes down by {}{:.4g} m, {:.3g} % of the {:.4g} m of the wall, and tyres bear "
-      "their load at 10 to {:.0f} %: a motion that is linear about the inflated state, in "
-      "all or in the rubber, is too stiff there; give {}",
+      "their load at 10 to {:.0f} %: what is linear about the inflated state "
+      "(inflation.nonlinear) is too stiff there; give {}",
       key, found, deflection, 100.0 * share, wall.thickness, 100.0 * deep_tyre_share, instead);
 }
 
