@@ -131,7 +131,7 @@ void add_rubber(const Case& c, const mesh::Mesh& mesh, Model& m) {
   for (std::size_t a = 0; a < n; ++a) {
     const double r = norm(mesh.coordinates[a]), z = mesh.axial[a];
     u.emplace_back(4e-3 * (r - 0.15) * (1.0 + 50.0 * z), 0.0, -0.03 * z * (r - 0.1));
-    section.place.emplace_back(r - u[a].x, z - u[a].z);
+    section.place.push_back({r - u[a].x, z - u[a].z});
   }
   section.held.assign(3 * n, 0);
   for (const mesh::Hexahedron& h : mesh.hexahedra) {
