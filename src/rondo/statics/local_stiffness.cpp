@@ -4,7 +4,6 @@
 #include <Eigen/CholmodSupport>
 
 #include "rondo/core/index.hpp"
-#include "rondo/core/process_wide.hpp"
 
 namespace rondo::statics {
 
@@ -39,7 +38,6 @@ void LocalStiffness::take(std::size_t force, std::size_t move, const Eigen::Matr
 }
 
 bool LocalStiffness::factor() {
-  const OneBlasThread one_thread;
   const auto size = static_cast<Index>(3 * part_->nodes.size());
   Matrix k(size, size);
   k.setFromTriplets(part_->entries.begin(), part_->entries.end());
@@ -54,7 +52,6 @@ void LocalStiffness::correct(std::span<const Vec3> force, std::span<Vec3> u) con
     const Vec3 f = force[part_->nodes[a]];
     right.segment<3>(static_cast<Index>(3 * a)) << f.x, f.y, f.z;
   }
-  const OneBlasThread one_thread;
   const Eigen::VectorXd way = part_->factors.solve(right);
   for (std::size_t a = 0; a < part_->nodes.size(); ++a) {
     const auto of = way.segment<3>(static_cast<Index>(3 * a));

@@ -10,6 +10,7 @@
 
 namespace rondo::statics {
 
+/// Its factors are by BLAS: with one thread they have the same bits at any time (OneBlasThread).
 class LocalStiffness {
  public:
   /// @param moves (n) of the body's nodes, 0: it is held

@@ -82,6 +82,14 @@ double radius_of(const Case& c, const mesh::Mesh& mesh) {
   return radius;
 }
 
+/// Numbers that nonlinear forces take besides: factors of all harmonics, and of a third of the
+/// wheel at each sample; the fields that are combined.
+std::size_t nonlinear_numbers(std::size_t nodes, std::size_t candidates, std::size_t samples) {
+  constexpr std::size_t fields = 50, of_a_row = 900;
+  const std::size_t dofs = 3 * nodes;
+  return dofs * samples * (3 * candidates + fields + of_a_row / 3);
+}
+
 }  // namespace
 
 template <int D>
@@ -99,8 +107,11 @@ std::size_t SteadyBody<D>::memory(const Case& c) const {
       std::min(most_kept, nodes * samples * D * D * candidates * sizeof(double));
   const std::size_t pairs = turn * candidates / 8;  // half a sector's pass touches at most
   constexpr std::size_t of_pairs = 2 * D * D + D * (D - 1);
+  const std::size_t nonlinear = c.inflation && c.inflation->nonlinear != TyreMotion::linear
+                                    ? nonlinear_numbers(nodes, candidates, samples)
+                                    : 0;
   return mesh_memory(nodes) + transfers +
-         (compliance + fields + of_pairs * pairs * pairs) * sizeof(double);
+         (compliance + fields + of_pairs * pairs * pairs + nonlinear) * sizeof(double);
 }
 
 template <int D>

@@ -9,8 +9,8 @@
 #include "rondo/analysis/steady/steady_case.hpp"
 #include "rondo/mesh/mesh.hpp"
 #include "rondo/model/solid/swept_part.hpp"
-#include "rondo/statics/steady/finite_rolling.hpp"
 #include "rondo/statics/local_stiffness.hpp"
+#include "rondo/statics/steady/finite_rolling.hpp"
 
 namespace rondo::study {
 
@@ -28,7 +28,9 @@ class SteadyRemainder final : public statics::RollingRemainder {
                       std::span<const statics::RollingPair> pressed) override;
   void correct(const Eigen::MatrixXd& left, Eigen::MatrixXd& u) override;
   /// What is stored while sector 0 is `place` samples from its place in X [J].
-  [[nodiscard]] double energy(int place) const { return of_[static_cast<std::size_t>(place)].energy; }
+  [[nodiscard]] double energy(int place) const {
+    return of_[static_cast<std::size_t>(place)].energy;
+  }
 
  private:
   /// The wheel at a place of a sector's pass.

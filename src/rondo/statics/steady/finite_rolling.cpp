@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "rondo/core/process_wide.hpp"
 #include "rondo/statics/anderson.hpp"
 #include "rondo/statics/steady/rolling_power.hpp"
 
@@ -115,6 +116,7 @@ bool never(const FiniteRolling& state, double done) {
 
 FiniteRolling solve_finite_rolling(RollingWindow<3>& window, const RollingDrive& drive,
                                    RollingRemainder& remainder, const MatrixXd& near) {
+  const OneBlasThread one_thread;
   const RollingHarmonics<3>& h = window.harmonics();
   const double lowest = window.lowest();
   FiniteRolling found;
