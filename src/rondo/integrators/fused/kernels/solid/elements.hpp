@@ -88,7 +88,7 @@ struct Volumes {
 
 /// The roots of all points together, so that none waits for another.
 inline Volumes volumes_of(const SolidRubberElement& e, const Tangents& g) noexcept {
-  Volumes v;
+  Volumes v{};
   Pack sum = all(0.0), least = all(1e300);
 #pragma GCC unroll 2
   for (int q = 0; q < 8; ++q) {
@@ -173,7 +173,7 @@ template <bool Bends, bool Second>
 template <bool Bends, bool Second>
 [[gnu::noinline]] Pack element_forces(const SolidRubberElement& e, const double* modes,
                                       double* force) noexcept {
-  Tangents g, f;
+  Tangents g{}, f{};
   {
     const Space xy = load_mode(modes, mode_xy), yz = load_mode(modes, mode_yz),
                 zx = load_mode(modes, mode_zx), xyz = load_mode(modes, mode_xyz);
