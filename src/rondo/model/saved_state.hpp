@@ -26,8 +26,8 @@ struct SavedState {
   std::vector<std::pair<std::uint64_t, Vec2>> impulses;
   std::vector<double> branches;       ///< of rubber: C_i of element and branch, xx, yy, xy
   std::vector<double> internal_work;  ///< of rubber (rubber_work.hpp, hyperelastic.hpp)
-  /// Of nonlinear rubber in a window: W and what its rounding left [J]; weight and energy [J] of
-  /// each column (swept_part.hpp)
+  /// A window of nonlinear rubber has its work W and what its rounding left [J]; then the weights
+  /// of all columns, and their energies [J] (swept_part.hpp)
   std::vector<double> window;
   std::vector<double> rim;   ///< state of a loaded rim (loaded_rim.hpp)
   std::vector<double> ring;  ///< contacts of a massless boundary (MasslessContact::save)

@@ -191,7 +191,7 @@ TEST(ColumnWindow, IsOneNearTheGroundAndFadesToZero) {
   }
 }
 
-/// As the wheel turns by a column counter-clockwise, each gets the weight of the next one.
+/// The wheel turns by a column counter-clockwise: each column gets the weight of the next one.
 TEST(ColumnWindow, StandsStillAsTheWheelTurns) {
   constexpr std::size_t n = 120;
   const ColumnWindow window{0.3};

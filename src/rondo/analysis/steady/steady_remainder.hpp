@@ -41,7 +41,8 @@ class SteadyRemainder final : public statics::RollingRemainder {
     double energy = 0.0;
   };
   struct Near;
-  /// Of the field at a place, all nodes in the axes of the wheel; and back to its rows.
+  /// unroll() turns the rows of a field at a place into all nodes, in the axes of the wheel; roll()
+  /// turns them back.
   void unroll(const Eigen::MatrixXd& field, std::size_t place, std::span<Vec3> nodes) const;
   void roll(std::span<const Vec3> nodes, std::size_t place, Eigen::MatrixXd& field) const;
   [[nodiscard]] double angle(std::size_t place) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/steady/steady_remainder.hpp"
@@ -90,10 +91,10 @@ void SteadyState<D>::solve() {
   else
     solution_ = solved(window_);
   if (solution_.end != statics::RollingEnd::solved) return;
-  spectrum_ = statics::spectrum_of(window_, solution_);
+  spectrum_ = finite_ ? std::move(finite_->spectrum) : statics::spectrum_of(window_, solution_);
   power_ = statics::rolling_power(window_, solution_, spectrum_,
                                   finite_ ? finite_->remainder : Eigen::MatrixXd());
-  u_ = window_.harmonics().fields(spectrum_, 0.0, false);
+  u_ = finite_ ? std::move(finite_->u) : window_.harmonics().fields(spectrum_, 0.0, false);
   if (case_.analysis.estimate_slip_error) estimate_slip_error();
 }
 

@@ -115,14 +115,12 @@ bool never(const FiniteRolling& state, double done) {
 }  // namespace
 
 FiniteRolling solve_finite_rolling(RollingWindow<3>& window, const RollingDrive& drive,
-                                   RollingRemainder& remainder, const MatrixXd& near) {
+                                   RollingRemainder& remainder) {
   const OneBlasThread one_thread;
   const RollingHarmonics<3>& h = window.harmonics();
   const double lowest = window.lowest();
   FiniteRolling found;
-  found.u = near;
-  if (near.size() == 0)
-    found.u = MatrixXd::Zero(static_cast<Index>(3 * h.body().stiffness.n_local()), h.turn());
+  found.u = MatrixXd::Zero(static_cast<Index>(3 * h.body().stiffness.n_local()), h.turn());
   Solver solver(window, remainder);
   double done = 0.0, step = 1.0;
   while (done < 1.0) {

@@ -35,7 +35,7 @@ struct FiniteEffort {
   double residual = 0.0;  ///< largest force that a row is out of balance by, over the load      [-]
 };
 
-/// A state, and where to start from for one nearby.
+/// A state, with its fields.
 struct FiniteRolling {
   RollingSolution solution;
   Eigen::MatrixXcd spectrum;  ///< of all rows, (D n_local, L/2 + 1)                     [m]
@@ -48,10 +48,8 @@ struct FiniteRolling {
 inline constexpr double finite_rolling_bound = 1e-8;
 
 /// @param window of the harmonics, which keep their factors
-/// @param near u of a state nearby, or empty: the linear one is near enough
 [[nodiscard]] FiniteRolling solve_finite_rolling(RollingWindow<3>& window,
                                                  const RollingDrive& drive,
-                                                 RollingRemainder& remainder,
-                                                 const Eigen::MatrixXd& near = {});
+                                                 RollingRemainder& remainder);
 
 }  // namespace rondo::statics

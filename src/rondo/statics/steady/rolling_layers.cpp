@@ -115,14 +115,14 @@ struct Harmonic {
           some.template segment<D>(static_cast<Index>(D * a));
   }
 
-  /// Of the forces on a layer, what is left once the layer before has moved.
+  /// Takes from the forces on a layer what the displacement of the layer before needs.
   void take_above(std::size_t l, const Eigen::VectorXcd& u, Eigen::VectorXcd& force) const {
     for (const RollingEntry<D>& e : layers[l].up)
       force.segment<D>(D * layers[l].rows[at(e.row)]) -=
           elastic() * order.turns[e.shift] *
           (e.block * u.segment<D>(D * layers[l - 1].rows[at(e.column)]));
   }
-  /// And once the one behind it has.
+  /// Takes from them what the displacement of the layer after needs.
   void take_below(std::size_t l, const Eigen::VectorXcd& u, Eigen::VectorXcd& force) const {
     for (const RollingEntry<D>& e : layers[l + 1].up)
       force.segment<D>(D * layers[l].rows[at(e.column)]) -=

@@ -37,7 +37,7 @@ constexpr std::array<std::array<bool, 3>, n_solid_modes> coordinates{{{true, fal
                                                                       {true, false, true},
                                                                       {true, true, true}}};
 
-/// Of the points, with ξ = ±1/√3: each coordinate but that of the derivative gives a 1/√3.
+/// The points are at ξ = ±1/√3: each coordinate but that of the derivative gives a 1/√3.
 const kernels::SolidModeShares shares{0.125, 0.125 / std::sqrt(3.0), 0.125 / 3.0};
 
 double share_of(std::size_t mode) noexcept {

@@ -38,7 +38,7 @@ class SolidWindow {
   void add_sums(double* sums, int of_energy, int of_window) const noexcept;
 
   [[nodiscard]] const double* forces() const noexcept { return force_.data() + RingLayout::lead; }
-  /// Of the chunk's packs: whether forces() are to be added there.
+  /// It tells for each pack of the chunk whether forces() are to be added there.
   [[nodiscard]] const char* is_shown() const noexcept { return shown_.data(); }
 
   /// Weights and energies of the chunk's own columns at the last place.
@@ -58,7 +58,7 @@ class SolidWindow {
   bool alone_;  ///< the whole ring: its own neighbour
   LargeArray force_;
   std::vector<double> of_wheel_;  ///< (n_sectors) weights
-  // Of the columns, padded to packs, from pack -1 on:
+  // These belong to the columns, padded to packs, from pack -1 on:
   std::vector<double> weight_, mask_, energy_;
   std::vector<double> weight_before_, energy_before_;  ///< (own columns)
   std::vector<int> packs_, cleared_;                   ///< with room for all

@@ -18,7 +18,7 @@ using rondo::dynamics::kernels::SolidRubber;
 using rondo::dynamics::kernels::SolidRubberElement;
 
 constexpr int n_components = 3 * n_solid_modes;
-/// Of modes: along ξ, η, ζ; of the products ξη, ηζ, ζξ; of ξηζ.
+/// The modes are in this order: along ξ, η, ζ; the products ξη, ηζ, ζξ; ξηζ.
 enum Mode { mode_x, mode_y, mode_z, mode_xy, mode_yz, mode_zx, mode_xyz };
 
 inline Space operator+(Space a, Space b) noexcept {
