@@ -28,6 +28,7 @@ double turn_at(const std::vector<Vec2>& p, std::size_t i) {
 }
 
 constexpr double farthest = 1e100;  ///< limit of points and radii: their products are in range [m]
+constexpr double closest = 1e-100;  ///< points nearer than this have no direction between them [m]
 
 /// Length that the fillet at point i takes from each of the segments beside it.
 double fillet_reach(const GroundShape& shape, std::size_t i) {
@@ -45,7 +46,7 @@ std::vector<ShapeFault> point_faults(const std::vector<Vec2>& p) {
   if (!faults.empty()) return faults;
   for (std::size_t i = 0; i + 1 < p.size(); ++i) {
     const int point = static_cast<int>(i) + 1;
-    if (p[i] == p[i + 1])
+    if (norm(p[i + 1] - p[i]) < closest)
       faults.push_back({point, false, "coincides with the point before it"});
     else if (p[i + 1].x < p[i].x)
       faults.push_back({point, false,
@@ -214,7 +215,7 @@ Ground::Projection Ground::project(const Facet& f, Vec2 x) noexcept {
     const double angle = std::atan2(-cross(f.normal, offset), dot(f.normal, offset));  // clockwise
     out.along = std::clamp(f.radius * angle, f.from, f.to);
     out.gap = r - f.radius;
-    out.normal = r > 0.0 ? offset / r : f.normal;
+    out.normal = r >= std::numeric_limits<double>::min() ? offset / r : f.normal;
     out.distance = norm(x - (f.center + f.radius * (rotation(-out.along / f.radius) * f.normal)));
     return out;
   }

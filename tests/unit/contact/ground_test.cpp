@@ -298,6 +298,8 @@ TEST(Ground, FaultsAreNamed) {
   EXPECT_NE(first({.profile = {{0, 0}, {0, 0}}}).find("coincides"), std::string::npos);
   EXPECT_NE(first({.profile = {{0, 0}, {-1, 0}}}).find("left"), std::string::npos);
   EXPECT_NE(first({.profile = {{0, 0}, {0, 1}, {0, 0.5}}}).find("turns back"), std::string::npos);
+  // Found by fuzzing: a direction of rounded numbers, which was no unit vector.
+  EXPECT_NE(first({.profile = {{0, 5e-324}, {5e-324, 0}}}).find("coincides"), std::string::npos);
   // Found by fuzzing: the length between two points was not finite, nor any distance.
   EXPECT_NE(first({.profile = {{-1.7e308, 0}, {1.7e308, 0}}}).find("origin"), std::string::npos);
   EXPECT_NE(first({.profile = ledge.profile, .fillet = 1e300}).find("at most"), std::string::npos);
