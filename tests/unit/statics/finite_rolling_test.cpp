@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "rondo/statics/anderson.hpp"
-#include "rondo/statics/local_stiffness.hpp"
+#include "rondo/statics/tangent_factors.hpp"
 
 namespace finite_rolling_test {
 namespace {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "rondo/core/process_wide.hpp"
-#include "rondo/statics/anderson.hpp"
 #include "rondo/statics/steady/rolling_power.hpp"
 
 namespace rondo::statics {
@@ -16,18 +15,17 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr std::size_t depth = 24;
 constexpr int most_turns = 200;
-constexpr int turns_without_gain = 40;  // that do not halve the residual
-// The stiffness near the ground is factored after so many turns, far out of balance and near.
-constexpr double far_out_of_balance = 5e-3;
-constexpr int turns_far = 3, turns_near = 30;
-constexpr double near_enough = 1e-3;  // residual at the end of a part before the last
+constexpr int turns_without_gain = 12;  // that do not halve the residual
+// A residual above the first, or that falls by less than the second, asks for a new tangent.
+constexpr double far_out_of_balance = 5e-3, slow = 0.1;
+constexpr double hopeless = 5.0;      // a residual that is so many times the least
+constexpr double near_enough = 1e-2;  // residual at the end of a part before the last
 constexpr double least_part = 1.0 / 64.0;
 constexpr double largest_change = 10.0;  // over the displacement: beyond it nothing converges
 
-Eigen::Map<const Eigen::VectorXd> flat(const MatrixXd& a) noexcept {
-  return {a.data(), a.size()};
+double largest(const MatrixXd& a) noexcept {
+  return a.cwiseAbs().maxCoeff();
 }
 
 class Solver {
@@ -35,28 +33,41 @@ class Solver {
   Solver(RollingWindow<3>& window, RollingRemainder& remainder)
       : window_(window), remainder_(remainder) {}
 
-  /// From the fields so far to the state under a drive. @return whether it was found
-  bool go(const RollingDrive& drive, double bound, FiniteRolling& state);
+  /// From the fields so far to the state under a drive, or near it if more of the way follows.
+  /// @return whether it was found
+  bool go(const RollingDrive& drive, bool is_last, FiniteRolling& state);
+  /// Forgets what failed.
+  bool begin_again(const FiniteRolling& state, bool has_moved);
 
  private:
   bool turn(const RollingDrive& drive, const MatrixXd& u, FiniteRolling& state);
-  [[nodiscard]] std::vector<RollingPair> pressed(const RollingSolution& solution) const;
+  [[nodiscard]] bool is_balanced(FiniteRolling& state);
+  [[nodiscard]] MatrixXd next(const FiniteRolling& state, MatrixXd u, const MatrixXd& left);
+  bool take_tangent(const MatrixXd& u);
+  void foresee(const MatrixXd& u, const RollingSolution& solution);
 
   RollingWindow<3>& window_;
   RollingRemainder& remainder_;
+  bool has_tangent_ = false;
 };
 
-std::vector<RollingPair> Solver::pressed(const RollingSolution& solution) const {
-  std::vector<RollingPair> pairs;
-  for (std::size_t j = 0; j < window_.pairs().size(); ++j)
-    if (solution.force[static_cast<Index>(3 * j)] > 0.0) pairs.push_back(window_.pairs()[j]);
-  return pairs;
+/// Contact is solved for where Newton's step leads to under forces λ, u + K'^-1 (r + λ - λ'), of
+/// which the harmonics alone have where K leads to. At u and the forces λ' so far, r is what is out
+/// of balance.
+void Solver::foresee(const MatrixXd& u, const RollingSolution& solution) {
+  RollingSolution now = solution;
+  now.force.conservativeResizeLike(Eigen::VectorXd::Zero(window_.problem().size()));
+  const MatrixXd way = window_.harmonics().fields(spectrum_of(window_, now), 0.0, false) - u;
+  MatrixXd more = -way;
+  remainder_.move(remainder_.linear(way), more);
+  window_.foresee(now.force, more);
 }
 
 /// The state under the remainder at u.
 bool Solver::turn(const RollingDrive& drive, const MatrixXd& u, FiniteRolling& state) {
   if (!remainder_.find(u, state.remainder) || !state.remainder.allFinite()) return false;
   window_.take_response(window_.harmonics().response(-state.remainder));
+  if (has_tangent_) foresee(u, state.solution);
   const RollingEffort before = state.solution.effort;
   state.solution = solve_rolling_from(window_, drive, state.solution);
   state.solution.effort.newton_steps += before.newton_steps;
@@ -68,31 +79,60 @@ bool Solver::turn(const RollingDrive& drive, const MatrixXd& u, FiniteRolling& s
   return true;
 }
 
-bool Solver::go(const RollingDrive& drive, double bound, FiniteRolling& state) {
-  Anderson acceleration(depth);
-  MatrixXd u = state.u, left;
-  double best = std::numeric_limits<double>::infinity();
-  int factored = -turns_near, gained = 0;
+/// By how much the load that the state is in equilibrium with differs from that of its own fields.
+bool Solver::is_balanced(FiniteRolling& state) {
+  MatrixXd own;
+  if (!remainder_.find(state.u, own)) return false;
+  state.effort.residual = largest(own - state.remainder) / std::abs(state.solution.forces.normal);
+  return state.effort.residual <= finite_rolling_bound;
+}
+
+bool Solver::take_tangent(const MatrixXd& u) {
+  has_tangent_ = remainder_.take_tangent(u, window_.pairs());
+  if (has_tangent_)
+    window_.soften([this](const RollingPair& of, const RollingPair& by) {
+      return remainder_.softness(of, by);
+    });
+  return has_tangent_;
+}
+
+bool Solver::begin_again(const FiniteRolling& state, bool has_moved) {
+  if (has_moved) return take_tangent(state.u);
+  has_tangent_ = false;
+  window_.soften({});
+  return true;
+}
+
+/// Newton's step: K' (next - u) = K (state - u), with the tangent K' near u.
+MatrixXd Solver::next(const FiniteRolling& state, MatrixXd u, const MatrixXd& left) {
+  if (!has_tangent_) return state.u;
+  remainder_.move(left, u);
+  return u;
+}
+
+bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
+  MatrixXd u = state.u;
+  double best = std::numeric_limits<double>::infinity(), last = best;
+  int gained = 0;
+  bool is_old = false;
   for (int n = 0; state.effort.turns < most_turns; ++n) {
-    if (!turn(drive, u, state) || !remainder_.find(state.u, left)) return false;
-    left -= state.remainder;
-    const double residual = left.cwiseAbs().maxCoeff() / std::abs(state.solution.forces.normal);
+    if (is_old && !take_tangent(u)) return false;
+    if (!turn(drive, u, state)) return false;
+    const MatrixXd way = state.u - u, left = remainder_.linear(way);
+    const double residual = largest(left) / std::abs(state.solution.forces.normal);
     state.effort.residual = residual;
-    if (residual <= bound) return true;
-    if (residual < 0.5 * best) best = residual, gained = n;
-    const double change = (state.u - u).cwiseAbs().maxCoeff();
-    if (!(change < largest_change * state.u.cwiseAbs().maxCoeff()) ||
-        n - gained > turns_without_gain)
-      return false;
-    if (n - factored >= (residual > far_out_of_balance ? turns_far : turns_near)) {
-      remainder_.take_stiffness(state.u, pressed(state.solution));
-      acceleration.restart();
-      factored = n;
+    if (is_last && residual <= finite_rolling_bound && is_balanced(state)) return true;
+    if (!is_last && residual <= near_enough) {
+      state.u = next(state, std::move(u), left);
+      return true;
     }
-    MatrixXd to = state.u;
-    remainder_.correct(left, to);
-    const Eigen::VectorXd next = acceleration.next(flat(u), flat(to));
-    u = Eigen::Map<const MatrixXd>(next.data(), u.rows(), u.cols());
+    if (n > 0 && residual < 0.5 * best) best = residual, gained = n;
+    if (!(largest(way) < largest_change * largest(state.u)) || n - gained > turns_without_gain ||
+        residual > hopeless * best)
+      return false;
+    is_old = residual > far_out_of_balance || (n > 0 && residual > slow * last);
+    last = residual;
+    u = next(state, std::move(u), left);
   }
   return false;
 }
@@ -126,12 +166,13 @@ FiniteRolling solve_finite_rolling(RollingWindow<3>& window, const RollingDrive&
   while (done < 1.0) {
     FiniteRolling next = found;
     const double to = std::min(1.0, done + step);
-    const bool there =
-        solver.go(part_of(drive, lowest, to), to < 1.0 ? near_enough : finite_rolling_bound, next);
+    const bool there = solver.go(part_of(drive, lowest, to), to == 1.0, next);
     found.effort.turns = next.effort.turns;
     if (!there) {
       step *= 0.5;
-      if (step >= least_part && next.effort.turns < most_turns && !never(next, done)) continue;
+      if (step >= least_part && next.effort.turns < most_turns && !never(next, done) &&
+          solver.begin_again(found, done > 0.0))
+        continue;
       found.solution = std::move(next.solution);
       if (found.solution.end == RollingEnd::solved) found.solution.end = RollingEnd::not_solved;
       found.effort = next.effort;

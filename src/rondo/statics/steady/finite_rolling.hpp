@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Steady rolling of a body whose inner forces are not linear (docs/tyre.md): the harmonics
-/// have the linear part of the forces, what is left of them acts as a load, and contact is solved
-/// exactly with that load, again and again until the load no longer changes.
+/// @file  Steady rolling of a body whose inner forces are not linear (docs/tyre.md): Newton's
+/// method around the exact linear problem of contact. The harmonics have the linear part of the
+/// forces, what is left of them acts as a load, and tangents at the samples of a pass say how much
+/// softer the body is than the harmonics have it.
 #pragma once
 #include <Eigen/Core>
 #include <span>
@@ -21,12 +22,18 @@ class RollingRemainder {
 
   /// @param u [m]. @param force [N]. @return false: an element is turned inside out
   [[nodiscard]] virtual bool find(const Eigen::MatrixXd& u, Eigen::MatrixXd& force) = 0;
-  /// Factors the stiffness at u of the part near the ground, what is far away and what is pressed
-  /// against the ground being held.
-  virtual void take_stiffness(const Eigen::MatrixXd& u, std::span<const RollingPair> pressed) = 0;
-  /// Moves that part towards its equilibrium, if it has factors. @param left out of balance at u
-  /// [N]
-  virtual void correct(const Eigen::MatrixXd& left, Eigen::MatrixXd& u) = 0;
+  /// @return K u [N]
+  [[nodiscard]] virtual Eigen::MatrixXd linear(const Eigen::MatrixXd& u) = 0;
+  /// Factors the tangent at u, with all its parts. @param pairs that may touch. @return false: it
+  /// is not positive definite, and the factors from before are gone
+  [[nodiscard]] virtual bool take_tangent(const Eigen::MatrixXd& u,
+                                          std::span<const RollingPair> pairs) = 0;
+  /// u += what the tangent makes of a force. @param force [N]
+  virtual void move(const Eigen::MatrixXd& force, Eigen::MatrixXd& u) = 0;
+  /// What a force on a pair moves another by at the tangent, less what it does at K, in the frames
+  /// of their sectors [m/N]; 0 for pairs that were not given.
+  [[nodiscard]] virtual Eigen::Matrix3d softness(const RollingPair& of,
+                                                 const RollingPair& by) const = 0;
 };
 
 struct FiniteEffort {

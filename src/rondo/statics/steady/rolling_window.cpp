@@ -6,6 +6,8 @@
 #include <numbers>
 #include <utility>
 
+#include "rondo/core/contract.hpp"
+
 namespace rondo::statics {
 namespace {
 
@@ -85,6 +87,18 @@ typename RollingWindow<D>::Kernel RollingWindow<D>::kernel(const RollingPair& of
       *kernels_)[(of.candidate * n + by.candidate) * frames_.size() + harmonics_.wrapped(ahead)];
 }
 
+template <int D>
+typename RollingWindow<D>::Kernel RollingWindow<D>::soft_kernel(const RollingPair& of,
+                                                                const RollingPair& by) const {
+  Kernel k{softness_(of, by), NodeMatrix<D>::Zero()};
+  for (std::size_t j = 0; j < weights_.size(); ++j)
+    k.slipped += weights_[j] *
+                 softness_({of.candidate, of.sample + problem_.back * static_cast<int>(j)}, by);
+  k.slipped.row(0) -= turn_ * k.moved.row(1);
+  k.slipped.row(1) += turn_ * k.moved.row(0);
+  return k;
+}
+
 /// Without contact, in the frame of the pair's sector.
 template <int D>
 NodeVector<D> RollingWindow<D>::free_displacement(const RollingPair& p) const noexcept {
@@ -131,11 +145,40 @@ double RollingWindow<D>::lowest() const noexcept {
 /// The torque of the weight is minus its power over s.
 template <int D>
 void RollingWindow<D>::take_response(Eigen::MatrixXcd spectrum) {
+  around_.resize(0);
   response_ = std::move(spectrum);
   more_ = harmonics_.fields(harmonics_.on_candidates(response_), 0.0, false);
   problem_.base_weight = gravity_.down * gravity_.down * harmonics_.weight_torque() -
                          harmonics_.weight(response_, gravity_) / harmonics_.body().spin;
-  for (Index p = 0; p < std::ssize(problem_.pairs); ++p) fill_base(p);
+  fill_bases(0);
+}
+
+template <int D>
+void RollingWindow<D>::soften(Softness softness) {
+  RONDO_DEMAND(D == 3);
+  softness_ = std::move(softness);
+  const Index n = std::ssize(problem_.pairs);
+  softer_.setZero(softness_ ? D * n : 0, softness_ ? D * n : 0);
+  fill_columns(0);
+  fill_bases(0);
+}
+
+template <int D>
+void RollingWindow<D>::foresee(const Eigen::VectorXd& force, const Eigen::MatrixXd& more) {
+  around_ = force;
+  for (std::size_t a = 0; a < harmonics_.n_candidates(); ++a)
+    more_.middleRows<D>(static_cast<Index>(D * a)) +=
+        more.middleRows<D>(D * harmonics_.body().candidates[a]);
+  fill_bases(0);
+}
+
+/// Of all pairs from one on: as the forces that the softness is about leave them.
+template <int D>
+void RollingWindow<D>::fill_bases(Index from) {
+  for (Index p = from; p < std::ssize(problem_.pairs); ++p) fill_base(p);
+  const Index forces = softness_ ? around_.size() : 0;
+  const Index rows = problem_.base.size() - D * from;
+  if (forces > 0) problem_.base.tail(rows) -= softer_.block(D * from, 0, rows, forces) * around_;
 }
 
 template <int D>
@@ -146,6 +189,16 @@ void RollingWindow<D>::fill_base(Index at) {
   problem_.base_place.template segment<D - 1>((D - 1) * at) = place.template tail<D - 1>();
   problem_.weight.template segment<D>(D * at) =
       to_ground(p.sample) * (gravity_.down * harmonics_.weight_torque(p.candidate, p.sample));
+}
+
+template <int D>
+NodeMatrix<D> RollingWindow<D>::rows_of(const RollingPair& of, const RollingPair& by,
+                                        const Kernel& k) const noexcept {
+  const NodeMatrix<D> forces = to_ground(by.sample).transpose();
+  const NodeMatrix<D>& to = to_ground(of.sample);
+  NodeMatrix<D> rows = to * (k.slipped * forces).eval();
+  rows.row(0) = (to * (k.moved * forces).eval()).row(0);
+  return rows;
 }
 
 /// All columns of a pair's forces, from a row on.
@@ -161,6 +214,11 @@ void RollingWindow<D>::fill_column(Index of, Index from) {
     auto here = problem_.matrix.template block<D, D>(D * p, D * of);
     here.row(0) = u.row(0);
     here.template bottomRows<D - 1>() = way.template bottomRows<D - 1>();
+    if (softness_) {
+      auto softer = softer_.template block<D, D>(D * p, D * of);
+      softer = rows_of(row, pair, soft_kernel(row, pair));
+      here += softer;
+    }
     problem_.matrix_place.template block<D - 1, D>((D - 1) * p, D * of) =
         u.template bottomRows<D - 1>();
   }
@@ -180,9 +238,16 @@ void RollingWindow<D>::include(const std::vector<RollingPair>& pairs) {
   problem_.weight.conservativeResize(D * n);
   problem_.matrix.conservativeResize(D * n, D * n);
   problem_.matrix_place.conservativeResize((D - 1) * n, D * n);
-  for (Index p = before; p < n; ++p) fill_base(p);
+  if (softness_) softer_.conservativeResize(D * n, D * n);
+  fill_columns(before);
+  fill_bases(before);
+}
+
+/// From a pair on, of which nothing is there yet.
+template <int D>
+void RollingWindow<D>::fill_columns(Index from) {
 #pragma omp parallel for num_threads(harmonics_.body().threads) schedule(static)
-  for (Index q = 0; q < n; ++q) fill_column(q, q < before ? before : 0);
+  for (Index q = 0; q < std::ssize(problem_.pairs); ++q) fill_column(q, q < from ? from : 0);
 }
 
 template <int D>

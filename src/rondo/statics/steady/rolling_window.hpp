@@ -5,6 +5,7 @@
 /// on friction, and is kept for all that differ in these alone.
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -43,8 +44,17 @@ class RollingWindow {
   /// @param force (D pairs) [N] @return whether there were any
   bool include_touching(double height, const Eigen::VectorXd& force);
   /// What forces on all rows make of the body besides spin, weight and contact: all gaps and ways
-  /// change by it. @param spectrum (D n_local, L/2 + 1) by RollingHarmonics::response() [m]
+  /// change by it. @param spectrum (D n_local, L/2 + 1) by RollingHarmonics::response() [m].
   void take_response(Eigen::MatrixXcd spectrum);
+  /// In space, what a force on a pair moves another by beyond what the harmonics say, in the frames
+  /// of their sectors [m/N].
+  using Softness = std::function<NodeMatrix<D>(const RollingPair& of, const RollingPair& by)>;
+  /// From now on forces that differ from those of foresee() move all pairs by so much more.
+  /// @param softness empty: no more
+  void soften(Softness softness);
+  /// Until the next response, the candidates are displaced by so much more under certain forces.
+  /// @param force (D pairs) [N]. @param more (D n_local, L), a field [m]
+  void foresee(const Eigen::VectorXd& force, const Eigen::MatrixXd& more);
   /// Empty: nothing was taken.
   [[nodiscard]] const Eigen::MatrixXcd& response() const noexcept { return response_; }
   /// Distance of the lowest contact node from the center where nothing touches, as spin, gravity
@@ -68,12 +78,18 @@ class RollingWindow {
   };
   [[nodiscard]] Kernel kernel(std::size_t a, std::size_t b, int ahead) const noexcept;
   [[nodiscard]] Kernel kernel(const RollingPair& of, const RollingPair& by) const noexcept;
+  [[nodiscard]] Kernel soft_kernel(const RollingPair& of, const RollingPair& by) const;
+  /// From a kernel to what a force of the ground makes of gap and ways, and to the displacement.
+  [[nodiscard]] NodeMatrix<D> rows_of(const RollingPair& of, const RollingPair& by,
+                                      const Kernel& k) const noexcept;
   void find_kernels();
   [[nodiscard]] NodeVector<D> free_displacement(const RollingPair& p) const noexcept;
   [[nodiscard]] NodeVector<D> free_place(const RollingPair& p) const noexcept;
   [[nodiscard]] NodeVector<D> free_way(const RollingPair& p) const noexcept;
   void fill_base(Eigen::Index pair);
+  void fill_bases(Eigen::Index from);
   void fill_column(Eigen::Index of, Eigen::Index from);
+  void fill_columns(Eigen::Index from);
 
   const RollingHarmonics<D>& harmonics_;
   RollingGravity gravity_;
@@ -84,7 +100,10 @@ class RollingWindow {
   /// (C, C, L) in the plane, where they are few; the same for copies
   std::shared_ptr<const std::vector<Kernel>> kernels_;
   Eigen::MatrixXcd response_;
-  Eigen::MatrixXd more_;                     ///< (D C, L) of it, on the candidates; empty: none [m]
+  Softness softness_;
+  Eigen::MatrixXd softer_;  ///< (D pairs, D pairs) of it, as RollingProblem::matrix       [m/N]
+  Eigen::VectorXd around_;  ///< contact forces that it is about                             [N]
+  Eigen::MatrixXd more_;    ///< (D C, L) of it, on the candidates; empty: none [m]
   std::vector<std::vector<char>> included_;  ///< (C, L)
   RollingProblem<D> problem_;
 };
