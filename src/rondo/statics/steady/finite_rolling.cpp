@@ -19,8 +19,9 @@ constexpr int most_turns = 200;
 constexpr int turns_without_gain = 12;  // that do not halve the residual
 // A residual above the first, or that falls by less than the second, asks for a new tangent.
 constexpr double far_out_of_balance = 5e-3, slow = 0.1;
-constexpr double hopeless = 5.0;      // a residual that is so many times the least
-constexpr double near_enough = 1e-2;  // residual at the end of a part before the last
+constexpr double near_the_end = 1e-4;  // of the tangent that slopes are found with
+constexpr double hopeless = 5.0;       // a residual that is so many times the least
+constexpr double near_enough = 1e-2;   // residual at the end of a part before the last
 constexpr double least_part = 1.0 / 64.0;
 constexpr double largest_change = 10.0;  // over the displacement: beyond it nothing converges
 
@@ -114,7 +115,8 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
   MatrixXd u = state.u;
   double best = std::numeric_limits<double>::infinity(), last = best;
   int gained = 0;
-  bool is_old = false;
+  double of_tangent = last;  // the residual where it was taken
+  bool is_old = false;       // the tangent
   for (int n = 0; state.effort.turns < most_turns; ++n) {
     if (is_old && !take_tangent(u)) return false;
     if (!turn(drive, u, state)) return false;
@@ -130,7 +132,9 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
     if (!(largest(way) < largest_change * largest(state.u)) || n - gained > turns_without_gain ||
         residual > hopeless * best)
       return false;
-    is_old = residual > far_out_of_balance || (n > 0 && residual > slow * last);
+    if (is_old) of_tangent = residual;
+    is_old = residual > far_out_of_balance || (n > 0 && residual > slow * last) ||
+             (is_last && of_tangent > near_the_end);
     last = residual;
     u = next(state, std::move(u), left);
   }

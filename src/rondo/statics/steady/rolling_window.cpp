@@ -88,15 +88,14 @@ typename RollingWindow<D>::Kernel RollingWindow<D>::kernel(const RollingPair& of
 }
 
 template <int D>
-typename RollingWindow<D>::Kernel RollingWindow<D>::soft_kernel(const RollingPair& of,
-                                                                const RollingPair& by) const {
-  Kernel k{softness_(of, by), NodeMatrix<D>::Zero()};
+void RollingWindow<D>::add_softness(const RollingPair& of, const RollingPair& by, Kernel& k) const {
+  const NodeMatrix<D> moved = softness_(of, by);
+  k.moved += moved;
   for (std::size_t j = 0; j < weights_.size(); ++j)
     k.slipped += weights_[j] *
                  softness_({of.candidate, of.sample + problem_.back * static_cast<int>(j)}, by);
-  k.slipped.row(0) -= turn_ * k.moved.row(1);
-  k.slipped.row(1) += turn_ * k.moved.row(0);
-  return k;
+  k.slipped.row(0) -= turn_ * moved.row(1);
+  k.slipped.row(1) += turn_ * moved.row(0);
 }
 
 /// Without contact, in the frame of the pair's sector.
@@ -145,40 +144,43 @@ double RollingWindow<D>::lowest() const noexcept {
 /// The torque of the weight is minus its power over s.
 template <int D>
 void RollingWindow<D>::take_response(Eigen::MatrixXcd spectrum) {
-  around_.resize(0);
   response_ = std::move(spectrum);
   more_ = harmonics_.fields(harmonics_.on_candidates(response_), 0.0, false);
   problem_.base_weight = gravity_.down * gravity_.down * harmonics_.weight_torque() -
                          harmonics_.weight(response_, gravity_) / harmonics_.body().spin;
-  fill_bases(0);
+  for (Index p = 0; p < std::ssize(problem_.pairs); ++p) fill_base(p);
 }
 
 template <int D>
 void RollingWindow<D>::soften(Softness softness) {
   RONDO_DEMAND(D == 3);
   softness_ = std::move(softness);
-  const Index n = std::ssize(problem_.pairs);
-  softer_.setZero(softness_ ? D * n : 0, softness_ ? D * n : 0);
   fill_columns(0);
-  fill_bases(0);
 }
 
 template <int D>
 void RollingWindow<D>::foresee(const Eigen::VectorXd& force, const Eigen::MatrixXd& more) {
-  around_ = force;
-  for (std::size_t a = 0; a < harmonics_.n_candidates(); ++a)
-    more_.middleRows<D>(static_cast<Index>(D * a)) +=
-        more.middleRows<D>(D * harmonics_.body().candidates[a]);
-  fill_bases(0);
-}
-
-/// Of all pairs from one on: as the forces that the softness is about leave them.
-template <int D>
-void RollingWindow<D>::fill_bases(Index from) {
-  for (Index p = from; p < std::ssize(problem_.pairs); ++p) fill_base(p);
-  const Index forces = softness_ ? around_.size() : 0;
-  const Index rows = problem_.base.size() - D * from;
-  if (forces > 0) problem_.base.tail(rows) -= softer_.block(D * from, 0, rows, forces) * around_;
+  RONDO_DEMAND(force.size() == problem_.size() && more_.size() > 0, force.size());
+  std::vector<std::pair<RollingPair, NodeVector<D>>> forces;  // in the frames of their sectors
+  int low = harmonics_.turn(), high = -low;
+  for (std::size_t q = 0; q < problem_.pairs.size(); ++q) {
+    const RollingPair& p = problem_.pairs[q];
+    low = std::min(low, p.sample), high = std::max(high, p.sample);
+    const NodeVector<D> f = force.segment<D>(static_cast<Index>(D * q));
+    if (!f.isZero(0.0)) forces.emplace_back(p, to_ground(p.sample).transpose() * f);
+  }
+  const int before = static_cast<int>(weights_.size());  // samples that the ways of a pair take in
+  const int first = low - before, last = std::min(high + before, first + harmonics_.turn() - 1);
+#pragma omp parallel for num_threads(harmonics_.body().threads) schedule(static)
+  for (std::size_t a = 0; a < harmonics_.n_candidates(); ++a) {
+    const auto row = static_cast<Index>(D * a);
+    more_.middleRows<D>(row) += more.middleRows<D>(D * harmonics_.body().candidates[a]);
+    for (int m = first; m <= last; ++m)
+      for (const auto& [pair, f] : forces)
+        more_.block<D, 1>(row, static_cast<Index>(harmonics_.wrapped(m))) -=
+            softness_({a, m}, pair) * f;
+  }
+  for (Index p = 0; p < std::ssize(problem_.pairs); ++p) fill_base(p);
 }
 
 template <int D>
@@ -191,16 +193,6 @@ void RollingWindow<D>::fill_base(Index at) {
       to_ground(p.sample) * (gravity_.down * harmonics_.weight_torque(p.candidate, p.sample));
 }
 
-template <int D>
-NodeMatrix<D> RollingWindow<D>::rows_of(const RollingPair& of, const RollingPair& by,
-                                        const Kernel& k) const noexcept {
-  const NodeMatrix<D> forces = to_ground(by.sample).transpose();
-  const NodeMatrix<D>& to = to_ground(of.sample);
-  NodeMatrix<D> rows = to * (k.slipped * forces).eval();
-  rows.row(0) = (to * (k.moved * forces).eval()).row(0);
-  return rows;
-}
-
 /// All columns of a pair's forces, from a row on.
 template <int D>
 void RollingWindow<D>::fill_column(Index of, Index from) {
@@ -208,17 +200,13 @@ void RollingWindow<D>::fill_column(Index of, Index from) {
   const NodeMatrix<D> forces = to_ground(pair.sample).transpose();
   for (Index p = from; p < std::ssize(problem_.pairs); ++p) {
     const RollingPair& row = problem_.pairs[static_cast<std::size_t>(p)];
-    const Kernel k = kernel(row, pair);
+    Kernel k = kernel(row, pair);
+    if (softness_) add_softness(row, pair, k);
     const NodeMatrix<D>& to = to_ground(row.sample);
     const NodeMatrix<D> u = to * (k.moved * forces).eval(), way = to * (k.slipped * forces).eval();
     auto here = problem_.matrix.template block<D, D>(D * p, D * of);
     here.row(0) = u.row(0);
     here.template bottomRows<D - 1>() = way.template bottomRows<D - 1>();
-    if (softness_) {
-      auto softer = softer_.template block<D, D>(D * p, D * of);
-      softer = rows_of(row, pair, soft_kernel(row, pair));
-      here += softer;
-    }
     problem_.matrix_place.template block<D - 1, D>((D - 1) * p, D * of) =
         u.template bottomRows<D - 1>();
   }
@@ -238,12 +226,11 @@ void RollingWindow<D>::include(const std::vector<RollingPair>& pairs) {
   problem_.weight.conservativeResize(D * n);
   problem_.matrix.conservativeResize(D * n, D * n);
   problem_.matrix_place.conservativeResize((D - 1) * n, D * n);
-  if (softness_) softer_.conservativeResize(D * n, D * n);
+  for (Index p = before; p < n; ++p) fill_base(p);
   fill_columns(before);
-  fill_bases(before);
 }
 
-/// From a pair on, of which nothing is there yet.
+/// Those of pairs so far and what pairs from one on add.
 template <int D>
 void RollingWindow<D>::fill_columns(Index from) {
 #pragma omp parallel for num_threads(harmonics_.body().threads) schedule(static)
@@ -279,10 +266,12 @@ bool RollingWindow<D>::include_touching(double height, const Eigen::VectorXd& fo
   }
   const auto gap = [&](const RollingPair& p) {
     NodeVector<D> u = NodeVector<D>::Zero();
-    for (std::size_t q = 0; q < touching.size(); ++q)
-      u +=
-          harmonics_.compliance(p.candidate, touching[q].candidate, p.sample - touching[q].sample) *
-          forces[q];
+    for (std::size_t q = 0; q < touching.size(); ++q) {
+      NodeMatrix<D> moved =
+          harmonics_.compliance(p.candidate, touching[q].candidate, p.sample - touching[q].sample);
+      if (softness_) moved += softness_(p, touching[q]);
+      u += moved * forces[q];
+    }
     return height + free_place(p)[0] + to_ground(p.sample).row(0).dot(u);
   };
   const int beyond = std::max(2, (high - low) / (D == 2 ? 2 : 4));

@@ -49,10 +49,10 @@ class RollingWindow {
   /// In space, what a force on a pair moves another by beyond what the harmonics say, in the frames
   /// of their sectors [m/N].
   using Softness = std::function<NodeMatrix<D>(const RollingPair& of, const RollingPair& by)>;
-  /// From now on forces that differ from those of foresee() move all pairs by so much more.
-  /// @param softness empty: no more
+  /// From now on forces move all pairs by so much more. @param softness empty: no more
   void soften(Softness softness);
-  /// Until the next response, the candidates are displaced by so much more under certain forces.
+  /// Until the next response, the softness counts for what forces differ from certain ones, under
+  /// which the candidates are displaced by so much more than the harmonics say.
   /// @param force (D pairs) [N]. @param more (D n_local, L), a field [m]
   void foresee(const Eigen::VectorXd& force, const Eigen::MatrixXd& more);
   /// Empty: nothing was taken.
@@ -78,16 +78,12 @@ class RollingWindow {
   };
   [[nodiscard]] Kernel kernel(std::size_t a, std::size_t b, int ahead) const noexcept;
   [[nodiscard]] Kernel kernel(const RollingPair& of, const RollingPair& by) const noexcept;
-  [[nodiscard]] Kernel soft_kernel(const RollingPair& of, const RollingPair& by) const;
-  /// From a kernel to what a force of the ground makes of gap and ways, and to the displacement.
-  [[nodiscard]] NodeMatrix<D> rows_of(const RollingPair& of, const RollingPair& by,
-                                      const Kernel& k) const noexcept;
+  void add_softness(const RollingPair& of, const RollingPair& by, Kernel& k) const;
   void find_kernels();
   [[nodiscard]] NodeVector<D> free_displacement(const RollingPair& p) const noexcept;
   [[nodiscard]] NodeVector<D> free_place(const RollingPair& p) const noexcept;
   [[nodiscard]] NodeVector<D> free_way(const RollingPair& p) const noexcept;
   void fill_base(Eigen::Index pair);
-  void fill_bases(Eigen::Index from);
   void fill_column(Eigen::Index of, Eigen::Index from);
   void fill_columns(Eigen::Index from);
 
@@ -101,8 +97,6 @@ class RollingWindow {
   std::shared_ptr<const std::vector<Kernel>> kernels_;
   Eigen::MatrixXcd response_;
   Softness softness_;
-  Eigen::MatrixXd softer_;  ///< (D pairs, D pairs) of it, as RollingProblem::matrix       [m/N]
-  Eigen::VectorXd around_;  ///< contact forces that it is about                             [N]
   Eigen::MatrixXd more_;    ///< (D C, L) of it, on the candidates; empty: none [m]
   std::vector<std::vector<char>> included_;  ///< (C, L)
   RollingProblem<D> problem_;
