@@ -97,13 +97,18 @@ bool Solver::go(const RollingDrive& drive, double bound, FiniteRolling& state) {
   return false;
 }
 
-/// A part of the way from where the body just touches.
-RollingDrive part_of(const RollingDrive& drive, double lowest, double part) {
+/// Where the way to a state begins: where the body just touches, or at another state.
+struct Beginning {
+  double height = 0.0, load = 0.0;
+};
+
+/// A part of the way.
+RollingDrive part_of(const RollingDrive& drive, const Beginning& from, double part) {
   RollingDrive d = drive;
   if (d.load)
-    *d.load *= part;
+    d.load = from.load + part * (*drive.load - from.load);
   else
-    d.height = lowest + part * (drive.height - lowest);
+    d.height = from.height + part * (drive.height - from.height);
   return d;
 }
 
@@ -115,19 +120,26 @@ bool never(const FiniteRolling& state, double done) {
 }  // namespace
 
 FiniteRolling solve_finite_rolling(RollingWindow<3>& window, const RollingDrive& drive,
-                                   RollingRemainder& remainder) {
+                                   RollingRemainder& remainder, const FiniteRolling* near) {
   const OneBlasThread one_thread;
   const RollingHarmonics<3>& h = window.harmonics();
-  const double lowest = window.lowest();
+  Beginning from{window.lowest(), 0.0};
   FiniteRolling found;
-  found.u = MatrixXd::Zero(static_cast<Index>(3 * h.body().stiffness.n_local()), h.turn());
+  if (near) {
+    found = *near;
+    found.effort = {};
+    found.solution.effort = {};
+    from = {near->solution.height, near->solution.forces.normal};
+  } else {
+    found.u = MatrixXd::Zero(static_cast<Index>(3 * h.body().stiffness.n_local()), h.turn());
+  }
   Solver solver(window, remainder);
   double done = 0.0, step = 1.0;
   while (done < 1.0) {
     FiniteRolling next = found;
     const double to = std::min(1.0, done + step);
     const bool there =
-        solver.go(part_of(drive, lowest, to), to < 1.0 ? near_enough : finite_rolling_bound, next);
+        solver.go(part_of(drive, from, to), to < 1.0 ? near_enough : finite_rolling_bound, next);
     found.effort.turns = next.effort.turns;
     if (!there) {
       step *= 0.5;

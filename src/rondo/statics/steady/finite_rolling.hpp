@@ -47,9 +47,11 @@ struct FiniteRolling {
 /// Bound of the residual.
 inline constexpr double finite_rolling_bound = 1e-8;
 
-/// @param window of the harmonics, which keep their factors
+/// @param window of the harmonics, which keep their factors. @param near a state of the window at
+/// another height or load, to start from; null: from where the body just touches
 [[nodiscard]] FiniteRolling solve_finite_rolling(RollingWindow<3>& window,
                                                  const RollingDrive& drive,
-                                                 RollingRemainder& remainder);
+                                                 RollingRemainder& remainder,
+                                                 const FiniteRolling* near = nullptr);
 
 }  // namespace rondo::statics
