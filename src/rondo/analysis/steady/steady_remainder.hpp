@@ -27,6 +27,7 @@ class SteadyRemainder final : public statics::RollingRemainder {
   void take_stiffness(const Eigen::MatrixXd& u,
                       std::span<const statics::RollingPair> pressed) override;
   void correct(const Eigen::MatrixXd& left, Eigen::MatrixXd& u) override;
+  [[nodiscard]] double energy() const override { return energy(0); }
   /// What is stored while sector 0 is `place` samples from its place in X [J].
   [[nodiscard]] double energy(int place) const {
     return of_[static_cast<std::size_t>(place)].energy;

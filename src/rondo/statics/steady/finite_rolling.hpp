@@ -27,6 +27,8 @@ class RollingRemainder {
   /// Moves that part towards its equilibrium, if it has factors. @param left out of balance at u
   /// [N]
   virtual void correct(const Eigen::MatrixXd& left, Eigen::MatrixXd& u) = 0;
+  /// What is stored where find() was asked last, while sector 0 is where it is in X [J].
+  [[nodiscard]] virtual double energy() const = 0;
 };
 
 struct FiniteEffort {
