@@ -34,6 +34,7 @@ void add_stress_stiffening(const Case& c, SteadyBody<2>& b) {
 
 template <int D>
 void warn_of_critical_spin(const Case& c, SteadyBody<D>& b) {
+  if (spin_of(c) == 0.0) return;
   const auto found =
       modal::critical_speeds_up_to<D>({b.sector, b.mass, b.mesh.coordinates}, std::abs(spin_of(c)));
   if (found.empty()) return;
