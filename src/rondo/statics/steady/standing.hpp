@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  A wheel that stands and is pressed onto flat ground by increments of depth or load, and
-/// drawn along it (docs/tyre.md, 6): an equilibrium after each, under Signorini's law on gaps and
-/// Coulomb's on the ways of nodes along the ground since the increment before (docs/theory.md,
-/// 6.4). The law of an increment is that of a pair of steady rolling, whose solver is used with one
-/// sample a sector, no spin and no inertia. A node that touches for the first time within an
-/// increment has its way from where it was before it: an error that vanishes with the increments.
+/// drawn along it (docs/tyre.md, section 6): an equilibrium after each, under Signorini's law on
+/// gaps and Coulomb's on the ways of nodes along the ground since the increment before
+/// (docs/theory.md, 6.4). The law of an increment is that of a pair of steady rolling, whose solver
+/// is used with one sample a sector, no spin and no inertia. A node that touches for the first time
+/// within an increment has its way from where it was before it: an error that vanishes with the
+/// increments.
 #pragma once
 #include <array>
 #include <optional>
