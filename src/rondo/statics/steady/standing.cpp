@@ -116,6 +116,19 @@ void StandingWheel::take(FiniteRolling found, StandingState& next) {
   finite_ = std::move(found);
 }
 
+/// From the state, whose fields are made smaller where the wheel is let up: those of more depth or
+/// load would draw it off the ground. Where that leads nowhere, from first touch.
+FiniteRolling StandingWheel::solve_finite(const RollingDrive& drive, const StandingTarget& target) {
+  if (!finite_ || state_.solution.end != RollingEnd::solved)
+    return solve_finite_rolling(window_, drive, *remainder_);
+  FiniteRolling near = *finite_;
+  near.u *= std::min(
+      1.0, target.load ? *target.load / near.solution.forces.normal : target.depth / state_.depth);
+  FiniteRolling found = solve_finite_rolling(window_, drive, *remainder_, &near);
+  if (found.solution.end == RollingEnd::solved) return found;
+  return solve_finite_rolling(window_, drive, *remainder_);
+}
+
 bool StandingWheel::solve(const StandingTarget& target, StandingState& next) {
   const RollingDrive drive{.height = touch_height_ - target.depth,
                            .speed = target.slide - state_.slide,
@@ -123,8 +136,7 @@ bool StandingWheel::solve(const StandingTarget& target, StandingState& next) {
                            .load = target.load};
   window_.count_from(on_candidates(harmonics_, state_.u));
   if (remainder_) {
-    const bool near = finite_ && state_.solution.end == RollingEnd::solved;
-    take(solve_finite_rolling(window_, drive, *remainder_, near ? &*finite_ : nullptr), next);
+    take(solve_finite(drive, target), next);
   } else {
     next.solution = solve_rolling_from(window_, drive, state_.solution);
     if (next.solution.end == RollingEnd::solved) {

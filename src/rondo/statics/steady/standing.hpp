@@ -62,6 +62,7 @@ class StandingWheel {
 
  private:
   [[nodiscard]] bool solve(const StandingTarget& target, StandingState& next);
+  [[nodiscard]] FiniteRolling solve_finite(const RollingDrive& drive, const StandingTarget& target);
   void take(FiniteRolling found, StandingState& next);
   void lift_off(StandingState& next) const;
   void find_inner(const Eigen::MatrixXd& remainder, StandingState& next) const;
