@@ -7,6 +7,7 @@ import h5py
 import numpy as np
 
 from program import history, run, said, summary
+from test_tyre import TYRE as FULL
 from test_tyre import TyreTest
 from test_tyre_nonlinear import ALL, COARSE, CORDS, WINDOW
 from test_tyre_steady_nonlinear import rolling
@@ -156,6 +157,24 @@ class TyreCrush(TyreTest):
         self.assertAlmostEqual(fine["depth_m"][-1], rows["depth_m"][-1], delta=1e-4)
         smooth, _ = self.pressed(by_load, *ALL, *SMOOTH)
         self.assertLess(rows["depth_m"][-1], smooth["depth_m"][-1])
+
+    def test_a_nonlinear_tyre_is_let_up(self):
+        path = ("--set", "analysis.increments=4", "--set", "analysis.depth=[[0, 0], [1, 0.004], [2, 0.012], [4, 0]]")
+        rows, _ = self.pressed(TYRE, *ALL, *SMOOTH, *path)
+        direct, _ = self.pressed(TYRE, *ALL, *SMOOTH, "--set", "analysis.depth=0.006")
+        self.assertAlmostEqual(rows["force_y"][3] / direct["force_y"][-1], 1.0, delta=1e-7)
+        self.assertEqual(rows["force_y"][4], 0.0)
+
+    def test_stiffness_along_the_ground_of_an_independent_calculation(self):
+        """At 260 kPa and 16 mm, where all that touches sticks: 277.3 N/mm; pressed without friction, 4,158.6 N."""
+        text = FULL + TYRE[TYRE.index("[ground]"):].replace("0.9", "5.0").replace("0.01", "0.016")
+        stiff = ("--set", "inflation.pressure=2.6e5", "--set", "analysis.increments=20")
+        drawn, _ = self.pressed(text, *stiff, "--set", "analysis.slide=1e-4", "--set", "analysis.slide_increments=1")
+        self.assertEqual(drawn["sticking_nodes"][-1], drawn["contact_nodes"][-1])
+        stiffness = (drawn["force_x"][-2] - drawn["force_x"][-1]) / 0.1  # N/mm
+        self.assertAlmostEqual(stiffness / 277.3, 1.0, delta=2e-4)
+        smooth, _ = self.pressed(text, *stiff, *SMOOTH, "--set", "analysis.increments=1")
+        self.assertAlmostEqual(smooth["force_y"][-1] / 4158.6, 1.0, delta=2e-5)
 
     def test_check(self):
         done = run("check", self.case(TYRE), *ALL)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Static loading: a wheel in three dimensions, standing, is pressed onto flat ground
-/// increment by increment (docs/tyre.md, section 6). Path and files are those of a crush in the plane.
+/// increment by increment (docs/tyre.md, section 6). Path and files are those of a crush in the
+/// plane.
 #pragma once
 #include <memory>
 

@@ -46,8 +46,7 @@ RollingWindow<D>::RollingWindow(const RollingHarmonics<D>& harmonics, SlipDiffer
   problem_.back = spin < 0.0 ? 1 : -1;
   problem_.base_weight = gravity_.down * gravity_.down * harmonics.weight_torque();
   turn_ = stands ? 0.0 : -problem_.back * sample;
-  if (stands)
-    origin_.setZero(static_cast<Index>(D * harmonics.n_candidates()), harmonics.turn());
+  if (stands) origin_.setZero(static_cast<Index>(D * harmonics.n_candidates()), harmonics.turn());
   const NodeMatrix<D> ground = ground_axes<D>(problem_.lean).transpose();
   for (int m = 0; m < harmonics.turn(); ++m) {
     frames_.push_back(rotation(2.0 * std::numbers::pi * m / harmonics.turn()));

@@ -36,8 +36,8 @@ double CrushPath::slide(int k) const noexcept {
 }
 
 std::string CrushPath::target(int k) const {
-  const std::string text = has_load() ? fmt::format("load {:.6g} N", load(k))
-                                      : fmt::format("depth {:.6g} m", depth(k));
+  const std::string text =
+      has_load() ? fmt::format("load {:.6g} N", load(k)) : fmt::format("depth {:.6g} m", depth(k));
   const bool slides = is_of_tables() ? has_slide() : k > increments_;
   return slides ? fmt::format("{}, slide {:.6g} m", text, slide(k)) : text;
 }
