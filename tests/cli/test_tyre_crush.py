@@ -70,11 +70,22 @@ class TyreCrush(TyreTest):
 
     def test_without_a_lateral_contraction_it_is_the_plane_crush(self):
         """Of Poisson's ratio 0, each slice of the wheel is a plane body, whose crush another solver finds."""
-        straight = ("--set", "material.poissons_ratio=0", *SLIDE)
-        wide, told = self.pressed(DISK, *straight)
+        tread = DISK.replace("circumferential = 90\n", "").replace("[material]", """[disk.tread]
+pitches = 40
+depth = 0.01
+land_columns = 3
+groove_columns = 1
+layers = 1
+[material]""")
+        for text in (DISK, tread):
+            with self.subTest(text=text):
+                self.compare_with_the_plane_crush(text, "--set", "material.poissons_ratio=0", *SLIDE)
+
+    def compare_with_the_plane_crush(self, text, *words):
+        wide, told = self.pressed(text, *words)
         self.assertNotIn("load", told)
-        plane, _ = self.pressed(DISK.replace("width = 0.1\n", "").replace("axial = 3\n", "").replace(
-            "[motion]\ncamber = 0.0\n", "").replace("density", 'plane = "stress"\ndensity'), *straight)
+        plane, _ = self.pressed(text.replace("width = 0.1\n", "").replace("axial = 3\n", "").replace(
+            "[motion]\ncamber = 0.0\n", "").replace("density", 'plane = "stress"\ndensity'), *words)
         self.assertEqual(len(wide["time_s"]), 13)
         for name in ("time_s", "depth_m", "center_x_m", "center_y_m", "pressure_max_pa", "shear_max_pa"):
             np.testing.assert_allclose(wide[name], plane[name], rtol=1e-9, atol=1e-6 if name.endswith("pa") else 1e-12, err_msg=name)

@@ -144,7 +144,7 @@ bool StandingWheel::solve(const StandingTarget& target, StandingState& next) {
       find_inner({}, next);
     }
   }
-  next.depth = touch_height_ - next.solution.height;
+  if (target.load) next.depth = touch_height_ - next.solution.height;
   return next.solution.end == RollingEnd::solved;
 }
 
