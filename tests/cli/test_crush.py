@@ -159,7 +159,7 @@ class Crush(RunTest):
         done = run("run", self.case(LEDGE), "-o", self.out, "--quiet", *FROM_DYNAMIC)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(said(done).count("warning"), 1)
-        for name in ("[damping]", "[motion]", "[initial]", "[time]", "output.snapshots"):
+        for name in ("[damping]", "motion.angular_velocity", "motion.speed", "motion.height", "[initial]", "[time]", "output.snapshots"):
             self.assertIn(name, done.stderr)
 
     def test_treaded_case(self):

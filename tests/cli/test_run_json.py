@@ -4,6 +4,7 @@ import unittest
 
 from program import ROOT, SMALL, ProgramTest, replaced, run, summary
 from schemas import errors, main, needs_jsonschema, schema
+from test_tyre_crush import TYRE
 from test_tyre_steady_nonlinear import RADIUS, rolling
 
 STILL = SMALL[:SMALL.index("[motion]")] + SMALL[SMALL.index("[ground]"):]
@@ -82,6 +83,8 @@ class Members(ProgramTest):
         self.made("wheel-of-a-file", "run", case, "--reduced", wheel, "--set", BRIEF)
         tyre = self.case(rolling(RADIUS - 1e-3, more="speed = 3.1e-4"))
         self.made("tyre-steady", "run", tyre, "--set", "inflation.nonlinear=cords")
+        pressed = self.case(TYRE.replace("depth = 0.01", "load = 500.0"))
+        self.made("tyre-crush", "run", pressed, "--set", "inflation.nonlinear=cords")
         self.assertEqual({path for path, _ in known(schema("run.json"))} - self.seen, set())
 
     def test_each_has_a_meaning(self):

@@ -387,8 +387,6 @@ class Refusals(SolidTest):
     """Each: settings, the key that is told, what is told to do instead."""
 
     PLANE_ONLY = [
-        (["analysis.kind=crush", "analysis.depth=0.01", "analysis.increments=2"], "analysis.kind",
-         "motion.height"),
         (["disk.rim=free"], "disk.rim", '"bonded"'),
         (["solver.operator=sparse"], "solver.operator", '"cyclic"'),
         (["solver.implicit=[{layers = [1]}]"], "solver.implicit[0]", "smaller step"),

@@ -18,7 +18,7 @@ struct SteadyWheelCase {
   mesh::Wheel wheel;
   double grading = 1.0;  ///< of the section across, finer in the middle: exponent of z/z_max
   fem::Material material;
-  double spin = 0.0;  ///< s = -ω [rad/s]
+  double spin = 0.0;  ///< s = -ω; 0: it stands, without inertia [rad/s]
   double mass_damping = 0.0, stiffness_damping = 0.0;
   double reach = 1.0;  ///< largest distance of candidates from the middle [m]
   int samples = 1;
@@ -59,6 +59,8 @@ class SteadyWheel {
                    .stiffness_damping = c.stiffness_damping,
                    .samples = c.samples,
                    .massless = c.massless,
+                   .inertia =
+                       c.spin == 0.0 ? statics::RollingInertia::none : statics::RollingInertia::all,
                    .threads = c.threads}) {}
   SteadyWheel(const SteadyWheel&) = delete;
   SteadyWheel& operator=(const SteadyWheel&) = delete;

@@ -50,6 +50,8 @@ class Crush:
     """Curves of a quasi-static crush, a row for each of t increments."""
 
     depth: np.ndarray           # (t,) of the center below first touch [m]
-    force: np.ndarray           # (t, 2) of the ground on the body: normal, tangential [N/m]
-    contact_length: np.ndarray  # (t,) [m]
+    # (t, 2) of the ground on the body: normal, tangential [N/m]; of a wheel in three dimensions
+    # (t, 3): normal, along the heading, to its right [N]
+    force: np.ndarray
+    contact_length: np.ndarray  # (t,) [m]; of a wheel in three dimensions its area [m2]
     pressure_max: np.ndarray    # (t,) [Pa]

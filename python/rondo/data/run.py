@@ -375,9 +375,10 @@ class Run:
         """None for a motion."""
         if not self.is_crush:
             return None
+        extent = "contact_area" if self.is_solid else "contact_length"
         with opened(self.path) as file:
             return Crush(*(file[f"crush/{name}"][:self.n_snapshots]
-                           for name in ("depth", "force", "contact_length", "pressure_max")))
+                           for name in ("depth", "force", extent, "pressure_max")))
 
     @cached_property
     def history(self) -> History:

@@ -116,6 +116,13 @@ std::string beyond_files(const CrushSetup& setup, const statics::CrushState& sta
   return found.empty() ? too_large("contact force", force, "N/m") : found;
 }
 
+std::string beyond_files(const mesh::Mesh& mesh, std::span<const fem::Material> materials,
+                         std::span<const Vec3> u) {
+  const Largest displacement = largest_of(u);
+  const std::string found = too_large("displacement", displacement, "m");
+  return found.empty() ? stress_too_large(mesh, materials, displacement) : found;
+}
+
 std::string not_finite(const dynamics::State& state, const std::string& otherwise) {
   const auto first = [](FieldView field, const char* name) -> std::string {
     for (std::size_t i = 0; i < field.size(); ++i)

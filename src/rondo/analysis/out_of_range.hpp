@@ -71,5 +71,8 @@ std::string not_finite(const dynamics::State& state, const std::string& otherwis
 /// node; empty: nothing.
 std::string beyond_files(const Setup& setup, const dynamics::State& state);
 std::string beyond_files(const CrushSetup& setup, const statics::CrushState& state);
+/// @param u (n) displacement of a wheel in three dimensions [m]
+std::string beyond_files(const mesh::Mesh& mesh, std::span<const fem::Material> materials,
+                         std::span<const Vec3> u);
 
 }  // namespace rondo::study

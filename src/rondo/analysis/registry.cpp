@@ -7,6 +7,7 @@
 
 #include "rondo/analysis/base/region_figures.hpp"
 #include "rondo/analysis/crush/crush.hpp"
+#include "rondo/analysis/crush/wheel_crush.hpp"
 #include "rondo/analysis/dynamic.hpp"
 #include "rondo/analysis/figures/crush_figures.hpp"
 #include "rondo/analysis/figures/dynamic_figures.hpp"
@@ -33,6 +34,7 @@ std::span<const AnalysisType> analysis_types() noexcept {
   static const std::array types{
       AnalysisType{dynamic, is_solid, "step", make_dynamic, solid_dynamic_figures()},
       AnalysisType{dynamic, nullptr, "step", make_dynamic, dynamic_figures()},
+      AnalysisType{crush, is_solid, "increment", make_wheel_crush, wheel_crush_figures()},
       AnalysisType{crush, by_latin, "increment", make_crush, latin_figures()},
       AnalysisType{crush, by_latin_pgd, "increment", make_crush, pgd_figures(), nullptr, true},
       AnalysisType{crush, nullptr, "increment", make_crush, crush_figures()},

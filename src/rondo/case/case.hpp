@@ -133,7 +133,7 @@ struct AnalysisCase {
   bool estimate_slip_error = false;            ///< default with [inflation]: true
   bool massless_contact = true;                ///< always the case with more than one sample
   bool accept_scheme_power = false;            ///< a large power of the discretisation is no fault
-  std::optional<double> load{};                ///< F_y > 0, instead of the height            [N/m]
+  std::optional<double> load{};  ///< F_y > 0, instead of height or depth                   [N/m]
   std::optional<double> traction{}, torque{};  ///< F_x, or clockwise torque on the rim, instead of
                                                ///< the speed                             [N/m], [N]
 };

@@ -11,7 +11,8 @@ namespace rondo::study {
 namespace {
 
 constexpr std::string_view depth = "analysis.depth", increments = "analysis.increments",
-                           slide = "analysis.slide", slide_increments = "analysis.slide_increments";
+                           slide = "analysis.slide", slide_increments = "analysis.slide_increments",
+                           load = "analysis.load";
 
 /// Depth and slide are numbers: the body is first pressed, then slid.
 void check_numbers(CaseValues& in, AnalysisCase& a) {
@@ -69,6 +70,21 @@ void check_depth(CaseValues& in, const Case& c) {
     in.fault(depth, "the rim would reach the ground", allowed);
 }
 
+/// A load is reached in equal parts, so that nothing beside it may be a table.
+void check_load(CaseValues& in, const Case& c) {
+  if (!in.has(load)) return;
+  if (!is_solid(c))
+    return in.fault(load, "presses a wheel in three dimensions, and the body is plane",
+                    "analysis.depth instead; or a disk.width");
+  if (in.has(depth))
+    in.fault(load, "is given together with analysis.depth: one follows from the other",
+             "one of analysis.depth and analysis.load");
+  if (in.has_array(slide))
+    in.fault(slide, "is a table, and analysis.load is reached in equal parts",
+             "a number with analysis.slide_increments; or a table of analysis.depth instead of the "
+             "load");
+}
+
 bool slides(const AnalysisCase& a) {
   return a.slide.largest() > 0.0;
 }
@@ -85,6 +101,9 @@ void check_solver(CaseValues& in, Case& c) {
                fmt::format("analysis.solver = {} beside it", instead));
   };
   if (a.solver == CrushMethod::latin) refuse(downsizing, "latin", "\"latin-pgd\"");
+  if (a.solver != CrushMethod::direct && is_solid(c))
+    return in.fault(solver, "is for plane bodies, not for a wheel in three dimensions",
+                    "analysis.solver = \"direct\"");
   if (a.solver != CrushMethod::direct && has_rubber(c))
     in.fault(solver, "is for linear elasticity only, and a part of the body is rubber",
              "analysis.solver = \"direct\"");
@@ -95,19 +114,28 @@ void check_solver(CaseValues& in, Case& c) {
   refuse(downsizing, "direct", "\"latin-pgd\"");
 }
 
+/// It is pressed by the means of steady rolling, which has no rubber but that of [inflation].
+void check_wheel(CaseValues& in, const Case& c) {
+  if (has_rubber(c) && !c.inflation)
+    in.fault("analysis.kind",
+             "a crush of a wheel in three dimensions is of small strain, and "
+             "rubber is not",
+             "[inflation] beside it, with inflation.nonlinear; or material.model = \"linear\"");
+  if (c.inflation && c.inflation->spin && *c.inflation->spin != 0.0)
+    in.fault("inflation.spin", "a crush presses a wheel that stands", "0");
+}
+
 }  // namespace
 
 void check_crush(CaseValues& in, Case& c) {
+  check_load(in, c);
   if (in.has_array(depth) || in.has_array(slide))
     check_tables(in, c.analysis);
   else
     check_numbers(in, c.analysis);
   check_depth(in, c);
   check_solver(in, c);
-  if (is_solid(c))
-    in.fault("analysis.kind", "a crush is of plane bodies, not of a wheel in three dimensions",
-             "\"dynamic\" with motion.angular_velocity = 0 and a table of motion.height that comes "
-             "down slowly; or no disk.width");
+  if (is_solid(c)) check_wheel(in, c);
   if (!c.mesh && c.free_rim)
     in.fault("disk.rim", "a crush needs a disk that is bonded to its rim", "\"bonded\"");
   if (c.mesh && !is_held(c) && in.good({"mesh.clamped"}))

@@ -105,6 +105,9 @@ bool has_free_spin(const Case& c) {
 bool has_load(const Case& c) {
   return c.analysis.load.has_value();
 }
+bool is_without_load(const Case& c) {
+  return !has_load(c);
+}
 bool has_traction(const Case& c) {
   return c.analysis.traction.has_value();
 }
@@ -411,7 +414,10 @@ constexpr CaseKey keys[] = {
      "w/2, short waves most. It lowers the critical step"},
 
     {"motion.angular_velocity", "rad/s", FIELD(motion.angular_velocity), any,
-     required.if_(is_held, "required if constrained and dynamic").only_in(in_motion).body(never),
+     required.if_(is_held, "required if constrained and dynamic")
+         .only_in(in_motion)
+         .of(not_in_crush)
+         .body(never),
      "Angular velocity ω of the rim; > 0 turns clockwise, which rolls towards +x. All angular "
      "velocities and angles of turns of a case, and `angle_rad` of history.csv, have this sign"},
     {"motion.speed", "m/s", FIELD(motion.speed), any,
@@ -439,7 +445,7 @@ constexpr CaseKey keys[] = {
      "Angle from the heading of a wheel in three dimensions to the velocity of its center; > 0 "
      "travels to the right as well, towards +z"},
     {"motion.camber", "rad", FIELD(motion.camber), with(slanted, "in rad: 1° is 0.01745"),
-     optional.if_(is_solid).of(in_motion).body(never),
+     optional.if_(is_solid).of(not_in_inflation).body(never),
      "Angle by which a wheel in three dimensions leans; > 0 leans its top to the left, towards -z"},
 
     {"rim.free", "-",
@@ -563,17 +569,17 @@ constexpr CaseKey keys[] = {
      "([inflation](#inflation-air-spin-and-mounting-at-finite-strain))"},
     {"analysis.depth", "m", FIELD(analysis.depth),
      over_increments(with(not_negative, "< disk.outer_radius - disk.inner_radius")),
-     required.of(of_crush).said("required if crush").body(never),
+     required.of(of_crush).if_(is_without_load, "required if crush without load").body(never),
      "Distance of the center below its height at first touch of the undeformed body: a number > 0, "
      "reached in equal parts, or a table over the index of the increment. Only in a crush"},
     {"analysis.increments", "-", FIELD(analysis.increments), between(1, 1000000),
      required.of(of_crush).said("required if crush").body(never),
-     "Number of equal parts of the depth, each an equilibrium; if the depth is a table, of all "
-     "increments. Only in a crush"},
+     "Number of equal parts of the depth or the load, each an equilibrium; if the depth is a "
+     "table, of all increments. Only in a crush"},
     {"analysis.slide", "m", FIELD(analysis.slide), over_increments(any),
      optional.of(of_crush).if_(has_slide, "none").body(never),
      "Displacement of the center along +x, without turning: a number, after the pressing and at "
-     "the full depth, or a table beside one of the depth. Only in a crush"},
+     "the full depth or load, or a table beside one of the depth. Only in a crush"},
     {"analysis.slide_increments", "-", FIELD(analysis.slide_increments), between(1, 1000000),
      optional.of(of_crush).if_(has_slide_increments, "required if slide is a number").body(never),
      "Number of equal parts of a slide that is a number, each an equilibrium. Refused beside "
@@ -637,8 +643,10 @@ constexpr CaseKey keys[] = {
      "([steady.md](steady.md#the-power-of-the-discretisation)); its rolling resistance is then "
      "meaningless, its forces and footprint are not"},
     {"analysis.load", "N/m", FIELD(analysis.load), positive,
-     optional.of(of_steady_rolling).if_(has_load, "none").body(never),
-     "Force of the ground on the steadily rolling body, upwards, given instead of `motion.height`"},
+     optional.of(of_load).if_(has_load, "none").body(never),
+     "Force of the ground on the body, upwards: in steady rolling given instead of "
+     "`motion.height`, in a crush of a wheel in three dimensions, which reaches it in equal parts, "
+     "instead of `analysis.depth`"},
     {"analysis.traction", "N/m", FIELD(analysis.traction), any,
      optional.of(of_steady_rolling).if_(has_traction, "none").body(never),
      "Force of the ground along +x, given instead of `motion.speed`; < 0 brakes"},

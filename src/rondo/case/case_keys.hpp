@@ -117,6 +117,8 @@ inline constexpr Analyses in_time{in_motion.bits & ~bit_of(AnalysisKind::steady_
 inline constexpr Analyses in_time_untold{in_time.bits, false};
 inline constexpr Analyses of_crush{bit_of(AnalysisKind::crush)};
 inline constexpr Analyses of_steady_rolling{bit_of(AnalysisKind::steady_rolling)};
+/// A body is pressed down by a load.
+inline constexpr Analyses of_load{of_crush.bits | of_steady_rolling.bits};
 
 constexpr bool always(const Case& /*c*/) {
   return true;

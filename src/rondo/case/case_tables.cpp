@@ -56,7 +56,7 @@ constexpr CaseTable tables[] = {
        if (c.inflation) c.inflation->mounting.resize(n);
      }},
     {"damping", one, nullptr, in_motion},
-    {"motion", one, nullptr, not_in_crush},
+    {"motion", one, nullptr},
     {"rim", with_rim, [](Case& c, std::size_t n) { set_there(c.rim, n); }, in_time_untold},
     {"rim.support.x", with_rim, nullptr, in_time_untold},
     {"rim.support.y", with_rim, nullptr, in_time_untold},

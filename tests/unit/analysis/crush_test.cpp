@@ -83,6 +83,21 @@ TEST(CrushPath, OfNumbersGoesDownThenAlong) {
   EXPECT_EQ(path.target(5), "depth 0.02 m, slide -0.005 m");
 }
 
+TEST(CrushPath, OfALoadReachesItThenKeepsIt) {
+  study::AnalysisCase a;
+  a.load = 2000.0;
+  a.increments = 4;
+  a.slide = dynamics::Table(0.01);
+  a.slide_increments = 1;
+  const study::CrushPath path(a);
+  EXPECT_TRUE(path.has_load());
+  EXPECT_EQ(path.load(0), 0.0);
+  EXPECT_DOUBLE_EQ(path.load(3), 1500.0);
+  EXPECT_EQ(path.load(5), 2000.0);
+  EXPECT_EQ(path.target(4), "load 2000 N");
+  EXPECT_EQ(path.target(5), "load 2000 N, slide 0.01 m");
+}
+
 TEST(CrushPath, OfTablesFollowsThem) {
   study::AnalysisCase a;
   a.depth = dynamics::Table({{0.0, 0.0}, {4.0, 0.02}, {8.0, 0.0}});

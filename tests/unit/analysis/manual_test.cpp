@@ -28,9 +28,9 @@ Labels further_contact_of(const std::vector<std::string>& settings) {
   return labels_of(make_analysis(c, {})->record_plan().contact_columns);
 }
 
-/// Behind those that every history has.
-Labels further(Labels labels) {
-  const auto shared = static_cast<std::ptrdiff_t>(history_labels({}).size());
+/// Behind those that every history has, or every one with these features.
+Labels further(Labels labels, const HistoryFeatures& features = {}) {
+  const auto shared = static_cast<std::ptrdiff_t>(history_labels(features).size());
   labels.erase(labels.begin(), labels.begin() + shared);
   return labels;
 }
@@ -52,6 +52,9 @@ TEST(Manual, HasTheColumns) {
   const Labels crush = history_of({"analysis.kind=crush", "analysis.depth=0.01",
                                    "analysis.increments=1", "ground.profile=flat"});
   const Labels solid = history_of({"disk.width=0.1", "ground.profile=flat", "motion.height=0.3"});
+  const Labels wheel_crush =
+      history_of({"analysis.kind=crush", "analysis.load=100", "analysis.increments=1",
+                  "ground.profile=flat", "disk.width=0.1"});
   const std::vector<std::string> rolls{"analysis.kind=steady-rolling", "ground.profile=flat"};
   const Labels steady = history_of(rolls);
   rondo::test::expect_in_manual(
@@ -59,7 +62,9 @@ TEST(Manual, HasTheColumns) {
       {table_of("history.csv", history_labels({})), table_of("probe", further(probe)),
        table_of("rim", further(rim)), table_of("massless", further(massless)),
        table_of("hati", further(hati)), table_of("rubber", further(rubber)),
-       table_of("crush", further(crush)), table_of("steady-rolling", further(steady)),
+       table_of("crush", further(crush)),
+       table_of("crush of a wheel in three dimensions", further(wheel_crush, {.solid = true})),
+       table_of("steady-rolling", further(steady)),
        table_of("wheel in three dimensions", further(solid)),
        table_of("contact.csv", labels_of(contact_columns(false))),
        table_of("contact.csv of a wheel in three dimensions", labels_of(contact_columns(true))),

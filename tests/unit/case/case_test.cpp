@@ -308,9 +308,9 @@ TEST(ReadCase, ACrushLeavesOutWhatOnlyMotionHas) {
       read_text(everything, {"analysis.kind=crush", "analysis.depth=0.02", "analysis.increments=40",
                              "ground.profile=flat", "output.checkpoint_interval=60.0"});
   ASSERT_EQ(c.warnings.size(), 1U);
-  for (const char* name :
-       {"[damping]", "[motion]", "[initial]", "[time]", "ground.restitution", "solver.operator",
-        "output.history_interval", "output.snapshots,", "output.snapshots_from"})
+  for (const char* name : {"[damping]", "motion.angular_velocity", "motion.gravity", "[initial]",
+                           "[time]", "ground.restitution", "solver.operator",
+                           "output.history_interval", "output.snapshots,", "output.snapshots_from"})
     EXPECT_NE((c.warnings[0] + ",").find(name), std::string::npos) << name;
   expect_round_trip(c);
   EXPECT_TRUE(read_text(write_case(c)).warnings.empty());

@@ -84,6 +84,27 @@ TEST(CrushHistories, AreBothTables) {
               {"analysis.slide_increments = 4", "increments are counted by"});
 }
 
+/// A wheel in three dimensions may be pressed by a load, and leans; it stands.
+TEST(CrushOfAWheel, HasADepthOrALoad) {
+  const std::vector<std::string> wide{"disk.width=1"};
+  const std::string loaded = "increments = 8\nload = 100.0\n";
+  const Case c = read_text(start + "[analysis]\nkind = \"crush\"\n" + loaded,
+                           {"disk.width=1", "motion.camber=0.1"});
+  EXPECT_EQ(c.analysis.load, 100.0);
+  EXPECT_EQ(c.motion.camber, 0.1);
+  EXPECT_EQ(c.analysis.samples_per_sector, 1);
+  EXPECT_EQ(c.analysis.inertia, RollingMasses::none);
+  EXPECT_EQ(write_case(read_text(write_case(c))), write_case(c));
+  EXPECT_EQ(wrong(loaded, wide), "");
+  EXPECT_NE(wrong(loaded).find("the body is plane"), std::string::npos);
+  EXPECT_NE(wrong(loaded + "depth = 0.5\n", wide).find("one of analysis.depth"), std::string::npos);
+  EXPECT_NE(wrong(loaded + "slide = [[0, 0], [8, 1]]\n", wide).find("equal parts"),
+            std::string::npos);
+  EXPECT_NE(wrong("increments = 8\n", wide).find("analysis.depth"), std::string::npos);
+  EXPECT_NE(wrong(loaded + "solver = \"latin\"\n", wide).find("for plane bodies"),
+            std::string::npos);
+}
+
 const std::string pressed = "increments = 8\ndepth = 0.5\n";
 
 TEST(CrushSolvers, HaveKeysOfTheirOwn) {

@@ -231,10 +231,10 @@ def draw_sticking(ax: Axes, found: Footprint) -> None:
 
 
 def heading(run: Run, k: int) -> str:
-    """Time, slip angle and camber."""
+    """Time, slip angle and camber; of a wheel that stands its depth and camber."""
     parts = [place_of(run, k)]
     slip = value_at(run, "slip_angle", float(run.times[k]))
-    if slip is not None:
+    if slip is not None and not run.is_crush:
         parts.append(f"slip angle {np.degrees(slip):.3g}°")
     if run.camber:
         parts.append(f"camber {np.degrees(run.camber):.3g}°")
@@ -259,6 +259,8 @@ def forces(run: Run, k: int) -> str:
 def place_of(run: Run, k: int) -> str:
     if run.is_steady:
         return f"place {k + 1} of {run.n_snapshots}"
+    if run.crush is not None:
+        return f"depth {1e3 * float(run.crush.depth[k]):.3g} mm"
     if run.is_inflation:
         return share_of_loads(float(run.times[k]))
     return f"t = {1e3 * float(run.times[k]):.1f} ms"

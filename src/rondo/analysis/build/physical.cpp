@@ -321,4 +321,21 @@ void tell_physical_figures(const Case& c, const RoundBody& body, PhysicalFigures
   if (!finds_speed) tell_slip(c, wall->radius, to);
 }
 
+void tell_physical_figures(const Case& c, const RoundBody& body, const CrushPath& path,
+                           PhysicalFigures& told) {
+  constexpr const char* key = "analysis.depth";
+  const Tell to{told.figures, told.warnings};
+  warn_of_senses(c, body.mesh, body.materials, told.warnings);
+  tell_stiffness(body.materials, to);
+  const std::optional<Wall> wall = wall_of(body.mesh);
+  if (!wall) return;
+  if (path.has_load())
+    tell_load(c, "analysis.load", *c.analysis.load, body, *wall, to);
+  else if (body.inflation)
+    tell_deflection(key, path.largest_depth(), {*body.inflation, *wall}, c.motion.camber, to);
+  else
+    tell_deflection(key, path.largest_depth(), *wall, touching_material(body.mesh, body.materials),
+                    to);
+}
+
 }  // namespace rondo::study

@@ -53,5 +53,8 @@ struct RoundBody {
 /// Tells the figures that a steady case gives: no deflection under a load but that of a tyre, no
 /// slip ratio under a traction or torque, and no warnings of units.
 void tell_physical_figures(const Case& c, const RoundBody& body, PhysicalFigures& told);
+/// Tells the figures that the crush of a wheel gives, and no warnings of units.
+void tell_physical_figures(const Case& c, const RoundBody& body, const CrushPath& path,
+                           PhysicalFigures& told);
 
 }  // namespace rondo::study

@@ -11,6 +11,7 @@
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/physical.hpp"
+#include "rondo/analysis/crush/crush_members.hpp"
 #include "rondo/analysis/crush/crush_record.hpp"
 #include "rondo/analysis/crush/crush_solver.hpp"
 #include "rondo/analysis/out_of_range.hpp"
@@ -74,40 +75,6 @@ class CrushAnalysis final : public Analysis {
   std::optional<std::string> trouble_;
 };
 
-struct Planned {
-  const AnalysisCase& a;
-  const CrushPath& path;
-  double prepare_s;
-};
-constexpr JsonMember<Planned> planned_rows[] = {
-    {"depth", "number", "m", "Depth at the end",
-     [](const Planned& p) -> Json { return p.path.depth(p.path.n_increments()); }},
-    {"depth_max", "number", "m", "Largest depth on the way",
-     [](const Planned& p) -> Json { return p.path.largest_depth(); }},
-    {"increments", "integer", "", "Increments of the depth that are planned",
-     [](const Planned& p) -> Json { return p.a.increments; }},
-    {"slide", "number", "m", "Slide at the end; 0: none",
-     [](const Planned& p) -> Json { return p.path.slide(p.path.n_increments()); }},
-    {"slide_increments", "integer", "",
-     "Increments of the slide that are planned; 0 without a slide, and with tables",
-     [](const Planned& p) -> Json { return p.a.slide_increments; }},
-    {"factor_wall_s", "number", "s", "Wall time to factorise and condense the stiffness",
-     [](const Planned& p) -> Json { return p.prepare_s; }},
-};
-constexpr JsonMember<int> increments_rows[] = {
-    {"increments_done", "integer", "", "Increments solved, of both; their results are kept",
-     [](const int& n) -> Json { return n; }},
-};
-constexpr JsonMember<double> equilibrium_rows[] = {
-    {"equilibrium_residual_max", "number", "", "Largest |K u − Hᵀ r| over |Hᵀ r|",
-     [](const double& residual) -> Json { return residual; }},
-};
-
-std::string reached(int increments, double depth, double slide) {
-  const std::string text = fmt::format("{} increments to a depth of {:.6g} m", increments, depth);
-  return slide == 0.0 ? text : fmt::format("{} and a slide of {:.6g} m", text, slide);
-}
-
 CheckReport CrushAnalysis::check(double /*trial*/) {
   const CrushPath& path = setup_.path;
   const int n = n_increments();
@@ -125,7 +92,7 @@ CheckReport CrushAnalysis::check(double /*trial*/) {
   r.lines = setup_.figures;
   r.lines.insert(r.lines.end(),
                  {{"condensed", fmt::format("{} contact nodes", setup_.within_reach)},
-                  {"increments", reached(n, path.depth(n), path.slide(n))}});
+                  {"increments", reached_text(n, path.depth(n), path.slide(n))}});
   if (path.is_of_tables())
     r.lines.emplace_back("largest depth", fmt::format("{:.6g} m", path.largest_depth()));
   r.warnings = warnings();
@@ -156,7 +123,7 @@ void CrushAnalysis::prepare() {
 
 void CrushAnalysis::describe(Json& j) const {
   add_size(setup_.mesh.n_nodes(), setup_.n_dofs(), j);
-  add_members(planned_rows, {case_.analysis, setup_.path, prepare_s_}, j);
+  describe_path(case_.analysis, setup_.path, prepare_s_, j);
   solver_->describe(j);
 }
 
@@ -214,17 +181,17 @@ void CrushAnalysis::count(const statics::CrushReport& r) {
 
 void CrushAnalysis::summarise(Json& j, RunReport& r) const {
   r.steps = increments_;
-  r.reached = reached(increments_, state_.depth, state_.slide);
+  r.reached = reached_text(increments_, state_.depth, state_.slide);
   r.energy_residual_relative = state_.works.relative;
   r.energy_residual_bound = residual_bound;
   r.contact_residual_max = residual_;
   r.penetration_max_m = penetration_;
   const bool tables = setup_.path.is_of_tables();
   strain_.summarise({"", tables ? " of the increments" : " of the depth"}, j, r);
-  add_members(increments_rows, increments_, j);
+  add_increments(increments_, j);
   add_steps_done(r, j);
   add_contact_residual(r, j);
-  add_members(equilibrium_rows, equilibrium_, j);
+  add_equilibrium(equilibrium_, j);
   add_energy_residual(r, state_.works.exchanged, j);
   add_penetration(r, j);
   solver_->summarise(state_, j, r);
@@ -237,8 +204,7 @@ std::unique_ptr<Analysis> make_crush(const Case& c, const RunOptions& options) {
 }
 
 std::vector<MemberText> crush_members() {
-  return joined({texts_of(planned_rows), texts_of(increments_rows), texts_of(equilibrium_rows),
-                 crush_solver_members()});
+  return joined({crush_path_members(), crush_solver_members()});
 }
 
 }  // namespace rondo::study

@@ -32,6 +32,40 @@ constexpr std::array crush_columns{
 };
 constexpr std::size_t n_of_all = 14, n_of_latin = 16;
 
+constexpr std::array wheel_columns{
+    FigureColumn{"depth_m", "m", "of the center below first touch, at the end"},
+    FigureColumn{"force_x", "N", "of the ground on the wheel along its heading, at the end"},
+    FigureColumn{"force_y", "N", "likewise, along the normal of the ground"},
+    FigureColumn{"force_lateral", "N", "likewise, to the right of the heading"},
+    FigureColumn{"moment_aligning", "N·m", "of the ground on the wheel about the normal"},
+    FigureColumn{"moment_overturning", "N·m", "about the heading, in the ground below the center"},
+    FigureColumn{"torque", "N·m", "about the center, at the end"},
+    FigureColumn{"contact_area_m2", "m2", "at the end"},
+    FigureColumn{"pressure_max_pa", "Pa", "at the end"},
+    FigureColumn{"shear_max_pa", "Pa", "at the end"},
+    FigureColumn{"strain", "J", "strain energy at the end"},
+    FigureColumn{"dissipation_friction", "J", "dissipated by friction"},
+    FigureColumn{"height_m", "m", "of the center above y = 0, at the end"},
+    FigureColumn{"energy_residual_relative", "1", "of the balance of energies"},
+    FigureColumn{"contact_residual_max", "1", "of the contact law"},
+    FigureColumn{"penetration_max_m", "m", "of all increments"},
+    FigureColumn{"strain_max", "1", "largest principal strain, of all increments"},
+    FigureColumn{"jacobian_min", "1", "least volume of an element over that undeformed"},
+};
+
+std::vector<double> wheel_figures_of(const std::filesystem::path& directory,
+                                     const Window& /*none*/) {
+  const std::filesystem::path file = directory / "history.csv";
+  const Columns history = io::read_columns(file);
+  std::vector<double> figures;
+  for (const char* name : {"depth_m", "force_x", "force_y", "force_lateral", "moment_aligning",
+                           "moment_overturning", "torque", "contact_area_m2", "pressure_max_pa",
+                           "shear_max_pa", "strain", "dissipation_friction", "center_y_m"})
+    figures.push_back(column(history, name, file).back());
+  add_figures_of_all(io::read_json(directory / "run.json"), figures);
+  return figures;
+}
+
 /// The first n of the columns.
 template <std::size_t n>
 std::vector<double> figures_of(const std::filesystem::path& directory, const Window& /*none*/) {
@@ -53,6 +87,10 @@ std::vector<double> figures_of(const std::filesystem::path& directory, const Win
 
 FigureTable crush_figures() noexcept {
   return {std::span(crush_columns).first(n_of_all), figures_of<n_of_all>, false};
+}
+
+FigureTable wheel_crush_figures() noexcept {
+  return {wheel_columns, wheel_figures_of, false};
 }
 
 FigureTable latin_figures() noexcept {

@@ -34,6 +34,7 @@ void add_stress_stiffening(const Case& c, SteadyBody<2>& b) {
 
 template <int D>
 void warn_of_critical_spin(const Case& c, SteadyBody<D>& b) {
+  if (spin_of(c) == 0.0) return;
   const auto found =
       modal::critical_speeds_up_to<D>({b.sector, b.mass, b.mesh.coordinates}, std::abs(spin_of(c)));
   if (found.empty()) return;
@@ -82,12 +83,12 @@ double radius_of(const Case& c, const mesh::Mesh& mesh) {
   return radius;
 }
 
-/// Numbers that nonlinear forces take besides: factors of all harmonics, and of a third of the
-/// wheel at each sample; the fields that are combined.
+/// Numbers that nonlinear forces take besides: factors of all harmonics, of the tangent at each
+/// sample and of one more that is being made; fields.
 std::size_t nonlinear_numbers(std::size_t nodes, std::size_t candidates, std::size_t samples) {
-  constexpr std::size_t fields = 50, of_a_row = 900;
+  constexpr std::size_t fields = 20, of_a_row = 800;
   const std::size_t dofs = 3 * nodes;
-  return dofs * samples * (3 * candidates + fields + of_a_row / 3);
+  return dofs * (samples * (3 * candidates + fields + of_a_row) + of_a_row);
 }
 
 }  // namespace

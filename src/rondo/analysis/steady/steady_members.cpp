@@ -164,9 +164,9 @@ constexpr JsonMember<SteadyFigures> figures_rows[] = {
     {"shear_max", "number", "Pa", "Largest shear of all samples, over the deformed boundary",
      [](const SteadyFigures& k) -> Json { return k.mean.shear; }},
     {"slopes", "object", "",
-     "Derivatives with respect to what is given, in SI units, each with the same members; not with "
-     "`inflation.nonlinear`, where differences of two runs tell them",
-     [](const SteadyFigures& k) { return k.finite ? absent() : object_of(slopes_rows, k); },
+     "Derivatives with respect to what is given, in SI units, each with the same members; with "
+     "`inflation.nonlinear` those of the last step of Newton's method",
+     [](const SteadyFigures& k) { return object_of(slopes_rows, k); },
      [] { return texts_of(slopes_rows); }},
     {"power", "object", "", "Balance of powers",
      [](const SteadyFigures& k) { return object_of(power_rows, k.power); },

@@ -30,6 +30,7 @@ class SteadyRemainder final : public statics::RollingRemainder {
   void move(const Eigen::MatrixXd& force, Eigen::MatrixXd& u) override;
   [[nodiscard]] Eigen::Matrix3d softness(const statics::RollingPair& of,
                                          const statics::RollingPair& by) const override;
+  [[nodiscard]] double energy() const override { return energy(0); }
   /// What is stored while sector 0 is `place` samples from its place in X [J].
   [[nodiscard]] double energy(int place) const {
     return of_[static_cast<std::size_t>(place)].energy;

@@ -37,8 +37,9 @@ class Solver {
   /// From the fields so far to the state under a drive, or near it if more of the way follows.
   /// @return whether it was found
   bool go(const RollingDrive& drive, bool is_last, FiniteRolling& state);
-  /// Forgets what failed.
-  bool begin_again(const FiniteRolling& state, bool has_moved);
+  /// From a state on: with its tangent, or from where the body just touches. @return whether the
+  /// tangent is positive definite
+  bool begin(const FiniteRolling& state, bool has_moved);
 
  private:
   bool turn(const RollingDrive& drive, const MatrixXd& u, FiniteRolling& state);
@@ -97,7 +98,7 @@ bool Solver::take_tangent(const MatrixXd& u) {
   return has_tangent_;
 }
 
-bool Solver::begin_again(const FiniteRolling& state, bool has_moved) {
+bool Solver::begin(const FiniteRolling& state, bool has_moved) {
   if (has_moved) return take_tangent(state.u);
   has_tangent_ = false;
   window_.soften({});
@@ -141,13 +142,18 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
   return false;
 }
 
-/// A part of the way from where the body just touches.
-RollingDrive part_of(const RollingDrive& drive, double lowest, double part) {
+/// Where the way to a state begins: where the body just touches, or at another state.
+struct Beginning {
+  double height = 0.0, load = 0.0;
+};
+
+/// A part of the way.
+RollingDrive part_of(const RollingDrive& drive, const Beginning& from, double part) {
   RollingDrive d = drive;
   if (d.load)
-    *d.load *= part;
+    d.load = from.load + part * (*drive.load - from.load);
   else
-    d.height = lowest + part * (drive.height - lowest);
+    d.height = from.height + part * (drive.height - from.height);
   return d;
 }
 
@@ -159,33 +165,41 @@ bool never(const FiniteRolling& state, double done) {
 }  // namespace
 
 FiniteRolling solve_finite_rolling(RollingWindow<3>& window, const RollingDrive& drive,
-                                   RollingRemainder& remainder) {
+                                   RollingRemainder& remainder, const FiniteRolling* near) {
   const OneBlasThread one_thread;
   const RollingHarmonics<3>& h = window.harmonics();
-  const double lowest = window.lowest();
+  Beginning from{window.lowest(), 0.0};
   FiniteRolling found;
-  found.u = MatrixXd::Zero(static_cast<Index>(3 * h.body().stiffness.n_local()), h.turn());
+  if (near) {
+    found = *near;
+    found.effort = {};
+    found.solution.effort = {};
+    from = {near->solution.height, near->solution.forces.normal};
+  } else {
+    found.u = MatrixXd::Zero(static_cast<Index>(3 * h.body().stiffness.n_local()), h.turn());
+  }
   Solver solver(window, remainder);
   double done = 0.0, step = 1.0;
-  while (done < 1.0) {
+  bool can_go_on = solver.begin(found, near != nullptr);
+  while (can_go_on && done < 1.0) {
     FiniteRolling next = found;
     const double to = std::min(1.0, done + step);
-    const bool there = solver.go(part_of(drive, lowest, to), to == 1.0, next);
-    found.effort.turns = next.effort.turns;
-    if (!there) {
-      step *= 0.5;
-      if (step >= least_part && next.effort.turns < most_turns && !never(next, done) &&
-          solver.begin_again(found, done > 0.0))
-        continue;
-      found.solution = std::move(next.solution);
-      if (found.solution.end == RollingEnd::solved) found.solution.end = RollingEnd::not_solved;
-      found.effort = next.effort;
-      return found;
+    if (solver.go(part_of(drive, from, to), to == 1.0, next)) {
+      next.effort.parts = found.effort.parts + 1;
+      done = to;
+      found = std::move(next);
+      continue;
     }
-    next.effort.parts = found.effort.parts + 1;
-    done = to;
-    found = std::move(next);
+    step *= 0.5;
+    can_go_on = step >= least_part && next.effort.turns < most_turns && !never(next, done) &&
+                solver.begin(found, near || done > 0.0);
+    found.effort.turns = next.effort.turns;
+    if (can_go_on) continue;
+    found.solution = std::move(next.solution);
+    found.effort = next.effort;
   }
+  if (done < 1.0 && found.solution.end == RollingEnd::solved)
+    found.solution.end = RollingEnd::not_solved;
   return found;
 }
 

@@ -34,6 +34,8 @@ class RollingRemainder {
   /// of their sectors [m/N]; 0 for pairs that were not given.
   [[nodiscard]] virtual Eigen::Matrix3d softness(const RollingPair& of,
                                                  const RollingPair& by) const = 0;
+  /// What is stored where find() was asked last, while sector 0 is where it is in X [J].
+  [[nodiscard]] virtual double energy() const = 0;
 };
 
 struct FiniteEffort {
@@ -54,9 +56,11 @@ struct FiniteRolling {
 /// Bound of the residual.
 inline constexpr double finite_rolling_bound = 1e-8;
 
-/// @param window of the harmonics, which keep their factors
+/// @param window of the harmonics, which keep their factors. @param near a state of the window at
+/// another height or load, to start from; null: from where the body just touches
 [[nodiscard]] FiniteRolling solve_finite_rolling(RollingWindow<3>& window,
                                                  const RollingDrive& drive,
-                                                 RollingRemainder& remainder);
+                                                 RollingRemainder& remainder,
+                                                 const FiniteRolling* near = nullptr);
 
 }  // namespace rondo::statics

@@ -34,7 +34,8 @@ fftw_complex* raw(Complexes* values) noexcept {
 template <int D>
 RollingHarmonics<D>::RollingHarmonics(RollingBody<D> body)
     : body_(std::move(body)), turn_(body_.stiffness.n_sectors * body_.samples) {
-  RONDO_DEMAND(body_.spin != 0.0 && body_.samples >= 1, body_.spin, body_.samples);
+  RONDO_DEMAND(body_.samples >= 1, body_.samples);
+  RONDO_DEMAND(body_.spin != 0.0 || body_.inertia == RollingInertia::none, body_.spin);
   RONDO_DEMAND(!body_.candidates.empty());
   const OneBlasThread one_thread;
   layers_ = rolling_layers(body_.stiffness, body_.candidates, body_.mass);

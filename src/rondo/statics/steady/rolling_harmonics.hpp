@@ -33,12 +33,12 @@ struct RollingBody {
   std::span<const Vec2> reference;  ///< (n) X                                              [m]
   std::span<const double> axial{};  ///< (n) and its z, in space                            [m]
   std::vector<int> candidates;      ///< rows of the sector that may touch
-  double spin = 0.0;                ///< s, counter-clockwise, not 0                        [rad/s]
-  double rest_spin = 0.0;           ///< at which it is in equilibrium without the ground   [rad/s]
-  double mass_damping = 0.0;        ///< α                                                  [1/s]
-  double stiffness_damping = 0.0;   ///< β                                                  [s]
-  int samples = 1;                  ///< P >= 1 of a sector's pass: L = N P of a turn
-  bool massless = false;            ///< the candidates' mass is moved to the nodes below
+  double spin = 0.0;  ///< s, counter-clockwise; 0, it stands, without inertia alone       [rad/s]
+  double rest_spin = 0.0;          ///< at which it is in equilibrium without the ground   [rad/s]
+  double mass_damping = 0.0;       ///< α                                                  [1/s]
+  double stiffness_damping = 0.0;  ///< β                                                  [s]
+  int samples = 1;                 ///< P >= 1 of a sector's pass: L = N P of a turn
+  bool massless = false;           ///< the candidates' mass is moved to the nodes below
   RollingInertia inertia = RollingInertia::all;
   std::vector<Vec> load{};  ///< (n_local) on the rows of every sector; empty: none [N]
   int threads = 1;          ///< same bits for any number

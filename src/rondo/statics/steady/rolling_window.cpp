@@ -20,6 +20,12 @@ NodeMatrix<D> rotation_matrix(Complex r) noexcept {
   return m;
 }
 
+std::vector<double> weights_of(SlipDifference slip) {
+  if (slip == SlipDifference::standing) return {1.0};
+  if (slip == SlipDifference::upwind) return {1.0, -1.0};
+  return {1.5, -2.0, 0.5};
+}
+
 }  // namespace
 
 template <int D>
@@ -27,17 +33,20 @@ RollingWindow<D>::RollingWindow(const RollingHarmonics<D>& harmonics, SlipDiffer
                                 double camber, double gravity)
     : harmonics_(harmonics),
       gravity_{gravity * std::cos(camber), gravity * std::sin(camber)},
-      weights_(slip == SlipDifference::upwind ? std::vector{1.0, -1.0}
-                                              : std::vector{1.5, -2.0, 0.5}),
+      weights_(weights_of(slip)),
       included_(harmonics.n_candidates(),
                 std::vector<char>(static_cast<std::size_t>(harmonics.turn()))) {
+  const bool stands = slip == SlipDifference::standing;
+  RONDO_DEMAND(stands == (harmonics.body().spin == 0.0) && (D == 3 || !stands),
+               harmonics.body().spin);
   const double spin = harmonics.body().spin, sample = 2.0 * std::numbers::pi / harmonics.turn();
   problem_.lean = rotation(camber);
-  problem_.time = 2.0 * std::numbers::pi / (harmonics.turn() * std::abs(spin));
+  problem_.time = stands ? 1.0 : 2.0 * std::numbers::pi / (harmonics.turn() * std::abs(spin));
   problem_.pass = harmonics.body().samples;
   problem_.back = spin < 0.0 ? 1 : -1;
   problem_.base_weight = gravity_.down * gravity_.down * harmonics.weight_torque();
-  turn_ = -problem_.back * sample;
+  turn_ = stands ? 0.0 : -problem_.back * sample;
+  if (stands) origin_.setZero(static_cast<Index>(D * harmonics.n_candidates()), harmonics.turn());
   const NodeMatrix<D> ground = ground_axes<D>(problem_.lean).transpose();
   for (int m = 0; m < harmonics.turn(); ++m) {
     frames_.push_back(rotation(2.0 * std::numbers::pi * m / harmonics.turn()));
@@ -114,9 +123,18 @@ NodeVector<D> RollingWindow<D>::free_place(const RollingPair& p) const noexcept 
   return to_ground(p.sample) * (harmonics_.reference(p.candidate) + free_displacement(p));
 }
 
+template <int D>
+NodeVector<D> RollingWindow<D>::way_from_origin(const RollingPair& p) const noexcept {
+  return to_ground(p.sample) *
+         (free_displacement(p) -
+          origin_.block<D, 1>(static_cast<Index>(D * p.candidate),
+                              static_cast<Index>(harmonics_.wrapped(p.sample))));
+}
+
 /// What of it is along n has no meaning.
 template <int D>
 NodeVector<D> RollingWindow<D>::free_way(const RollingPair& p) const noexcept {
+  if (origin_.size() > 0) return way_from_origin(p);
   NodeVector<D> way = NodeVector<D>::Zero();
   for (std::size_t j = 0; j < weights_.size(); ++j) {
     const int sample = p.sample + problem_.back * static_cast<int>(j);
@@ -141,13 +159,26 @@ double RollingWindow<D>::lowest() const noexcept {
   return least;
 }
 
-/// The torque of the weight is minus its power over s.
+template <int D>
+void RollingWindow<D>::count_from(Eigen::MatrixXd displacement) {
+  RONDO_DEMAND(origin_.size() > 0 && displacement.size() == origin_.size(), displacement.size());
+  origin_ = std::move(displacement);
+  fill_bases();
+}
+
+/// The torque of the weight is minus its power over s; that of a standing body is not found.
 template <int D>
 void RollingWindow<D>::take_response(Eigen::MatrixXcd spectrum) {
   response_ = std::move(spectrum);
   more_ = harmonics_.fields(harmonics_.on_candidates(response_), 0.0, false);
-  problem_.base_weight = gravity_.down * gravity_.down * harmonics_.weight_torque() -
-                         harmonics_.weight(response_, gravity_) / harmonics_.body().spin;
+  problem_.base_weight = gravity_.down * gravity_.down * harmonics_.weight_torque();
+  if (const double spin = harmonics_.body().spin; spin != 0.0)
+    problem_.base_weight -= harmonics_.weight(response_, gravity_) / spin;
+  fill_bases();
+}
+
+template <int D>
+void RollingWindow<D>::fill_bases() {
   for (Index p = 0; p < std::ssize(problem_.pairs); ++p) fill_base(p);
 }
 
@@ -180,7 +211,7 @@ void RollingWindow<D>::foresee(const Eigen::VectorXd& force, const Eigen::Matrix
         more_.block<D, 1>(row, static_cast<Index>(harmonics_.wrapped(m))) -=
             softness_({a, m}, pair) * f;
   }
-  for (Index p = 0; p < std::ssize(problem_.pairs); ++p) fill_base(p);
+  fill_bases();
 }
 
 template <int D>

@@ -17,8 +17,9 @@ namespace rondo::statics {
 
 /// How the slip of a material point is taken: from its place one sample before, or from two. In the
 /// plane it is a difference of whole places; in space the turn is exact, and the difference is one
-/// of displacements.
-enum class SlipDifference { bdf2, upwind };
+/// of displacements. A standing body, in space alone, does not pass samples: the way of a point is
+/// its displacement less the one that count_from() gave, and the time of a sample is 1.
+enum class SlipDifference { bdf2, upwind, standing };
 
 template <int D>
 class RollingWindow {
@@ -55,6 +56,9 @@ class RollingWindow {
   /// which the candidates are displaced by so much more than the harmonics say.
   /// @param force (D pairs) [N]. @param more (D n_local, L), a field [m]
   void foresee(const Eigen::VectorXd& force, const Eigen::MatrixXd& more);
+  /// Ways of a standing body are counted from here; at first from where nothing is displaced.
+  /// @param displacement (D C, L) of the candidates, in the frames of their sectors [m]
+  void count_from(Eigen::MatrixXd displacement);
   /// Empty: nothing was taken.
   [[nodiscard]] const Eigen::MatrixXcd& response() const noexcept { return response_; }
   /// Distance of the lowest contact node from the center where nothing touches, as spin, gravity
@@ -83,6 +87,8 @@ class RollingWindow {
   [[nodiscard]] NodeVector<D> free_displacement(const RollingPair& p) const noexcept;
   [[nodiscard]] NodeVector<D> free_place(const RollingPair& p) const noexcept;
   [[nodiscard]] NodeVector<D> free_way(const RollingPair& p) const noexcept;
+  [[nodiscard]] NodeVector<D> way_from_origin(const RollingPair& p) const noexcept;
+  void fill_bases();
   void fill_base(Eigen::Index pair);
   void fill_column(Eigen::Index of, Eigen::Index from);
   void fill_columns(Eigen::Index from);
@@ -92,12 +98,13 @@ class RollingWindow {
   std::vector<Complex> frames_;           ///< (L)
   std::vector<NodeMatrix<D>> to_ground_;  ///< (L)
   std::vector<double> weights_;           ///< of a point's own and its earlier places
-  double turn_;                           ///< s of a sample's time                          [rad]
+  double turn_;  ///< s of a sample's time; 0 of a standing body                            [rad]
   /// (C, C, L) in the plane, where they are few; the same for copies
   std::shared_ptr<const std::vector<Kernel>> kernels_;
   Eigen::MatrixXcd response_;
   Softness softness_;
-  Eigen::MatrixXd more_;    ///< (D C, L) of it, on the candidates; empty: none [m]
+  Eigen::MatrixXd more_;                     ///< (D C, L) of it, on the candidates; empty: none [m]
+  Eigen::MatrixXd origin_;                   ///< (D C, L) of count_from(); empty: it does not stand
   std::vector<std::vector<char>> included_;  ///< (C, L)
   RollingProblem<D> problem_;
 };

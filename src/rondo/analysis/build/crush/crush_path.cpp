@@ -12,6 +12,7 @@ namespace rondo::study {
 CrushPath::CrushPath(const AnalysisCase& analysis)
     : depth_(analysis.depth),
       slide_(analysis.slide),
+      load_(analysis.load.value_or(0.0)),
       increments_(analysis.increments),
       slide_increments_(analysis.slide_increments) {
   RONDO_DEMAND(increments_ >= 1 && slide_increments_ >= 0, increments_, slide_increments_);
@@ -23,6 +24,11 @@ double CrushPath::depth(int k) const noexcept {
   return depth_.at(0.0) * std::min(k, increments_) / increments_;
 }
 
+double CrushPath::load(int k) const noexcept {
+  RONDO_ASSERT(k >= 0 && k <= n_increments(), k, n_increments());
+  return load_ * std::min(k, increments_) / increments_;
+}
+
 double CrushPath::slide(int k) const noexcept {
   RONDO_ASSERT(k >= 0 && k <= n_increments(), k, n_increments());
   if (is_of_tables()) return slide_.at(k);
@@ -30,7 +36,8 @@ double CrushPath::slide(int k) const noexcept {
 }
 
 std::string CrushPath::target(int k) const {
-  const std::string text = fmt::format("depth {:.6g} m", depth(k));
+  const std::string text =
+      has_load() ? fmt::format("load {:.6g} N", load(k)) : fmt::format("depth {:.6g} m", depth(k));
   const bool slides = is_of_tables() ? has_slide() : k > increments_;
   return slides ? fmt::format("{}, slide {:.6g} m", text, slide(k)) : text;
 }

@@ -7,8 +7,8 @@
 
 namespace rondo::study {
 
-/// A depth in equal parts, then a slide in equal parts; or tables of both over the number of the
-/// increment. All of them begin at first touch, increment 0.
+/// A depth or a load in equal parts, then a slide in equal parts; or tables of depth and slide over
+/// the number of the increment. All of them begin at first touch, increment 0.
 class CrushPath {
  public:
   CrushPath() = default;
@@ -16,7 +16,12 @@ class CrushPath {
   explicit CrushPath(const AnalysisCase& analysis);
 
   [[nodiscard]] int n_increments() const noexcept { return increments_ + slide_increments_; }
-  /// Way of the center below first touch after increment k, 0 to n_increments(), >= 0 [m]
+  /// A load is given, and the depth follows from it.
+  [[nodiscard]] bool has_load() const noexcept { return load_ > 0.0; }
+  /// Force of the ground along its normal after increment k. @pre has_load() [N]
+  [[nodiscard]] double load(int k) const noexcept;
+  /// Way of the center below first touch after increment k, 0 to n_increments(), >= 0. @pre no load
+  /// is given [m]
   [[nodiscard]] double depth(int k) const noexcept;
   /// Way of the center along +x after increment k [m]
   [[nodiscard]] double slide(int k) const noexcept;
@@ -31,11 +36,12 @@ class CrushPath {
   [[nodiscard]] bool has_slide() const noexcept { return slide_.largest() > 0.0; }
   /// Tables give the depth, and the slide where there is one.
   [[nodiscard]] bool is_of_tables() const noexcept { return depth_.points().size() > 1; }
-  /// "depth 0.02 m, slide 0.001 m" after increment k
+  /// "depth 0.02 m, slide 0.001 m" after increment k, or "load 2000 N, slide 0.001 m"
   [[nodiscard]] std::string target(int k) const;
 
  private:
   dynamics::Table depth_, slide_;
+  double load_ = 0.0;  ///< at the end [N]; 0: none is given
   int increments_ = 1, slide_increments_ = 0;
 };
 

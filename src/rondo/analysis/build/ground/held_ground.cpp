@@ -128,6 +128,13 @@ void refuse_held_in_ground(const Case& c, const CrushSetup& s) {
   if (depth > touching * extent_of(s.mesh)) refuse(c, s.mesh, depth, "at the largest depth ");
 }
 
+void refuse_held_in_ground(const Case& c, const mesh::Mesh& mesh, const CrushPath& path,
+                           double touch_height) {
+  if (path.has_load() || mesh.clamped.empty()) return;
+  const double depth = reach_below(mesh, c.motion.camber) - touch_height + path.largest_depth();
+  if (depth > touching * extent_of(mesh)) refuse(c, mesh, depth, "at the largest depth ");
+}
+
 void refuse_held_in_ground(const Case& c, const mesh::Mesh& mesh) {
   if (c.analysis.load || mesh.clamped.empty()) return;
   RONDO_DEMAND(c.ground && !c.ground->shape.profile.empty(), c.ground.has_value());

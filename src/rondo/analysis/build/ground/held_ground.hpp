@@ -14,6 +14,10 @@ void refuse_held_in_ground(const Case& c, const Setup& s);
 [[nodiscard]] std::string held_outside_contact(const Case& c, const Setup& s);
 /// At the largest depth. @throws InputError
 void refuse_held_in_ground(const Case& c, const CrushSetup& s);
+/// For a wheel in three dimensions, at the largest depth of its crush. @param touch_height of the
+/// center above the ground at first touch [m] @throws InputError
+void refuse_held_in_ground(const Case& c, const mesh::Mesh& mesh, const CrushPath& path,
+                           double touch_height);
 /// For steady rolling at a given height. @throws InputError
 void refuse_held_in_ground(const Case& c, const mesh::Mesh& mesh);
 
