@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "rondo/core/index.hpp"
+#include "rondo/core/process_wide.hpp"
 
 namespace rondo::statics {
 
@@ -81,7 +82,10 @@ void TangentFactors::Part::analyse(cholmod_sparse& k) {
   factors = cholmod_analyze_p(&k, given.data(), nullptr, 0, &common);
 }
 
+/// CHOLMOD is kept on one thread: called from a loop over samples it would make threads for each of
+/// its many small loops.
 bool TangentFactors::factor() {
+  const BorrowedBlas alone;
   const auto size = static_cast<Index>(3 * part_->nodes.size());
   Matrix k(size, size);
   k.setFromTriplets(part_->entries.begin(), part_->entries.end());
@@ -143,6 +147,7 @@ Eigen::MatrixXd TangentFactors::compliance() const {
 }
 
 void TangentFactors::move(std::span<const Vec3> force, std::span<Vec3> u) const {
+  const BorrowedBlas alone;
   Eigen::VectorXd right(static_cast<Index>(3 * part_->nodes.size()));
   for (std::size_t a = 0; a < part_->nodes.size(); ++a) {
     const Vec3 f = force[part_->nodes[a]];

@@ -11,8 +11,7 @@
 
 namespace rondo::statics {
 
-/// The factors are made by BLAS: with one thread they have the same bits at any time
-/// (OneBlasThread).
+/// The factors are made with one thread and have the same bits at any time.
 class TangentFactors {
  public:
   /// @param moves (n) of the body's nodes, 0: the node is held. @param touching nodes that move and

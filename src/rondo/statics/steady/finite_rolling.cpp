@@ -21,6 +21,7 @@ constexpr int turns_without_gain = 12;  // that do not halve the residual
 constexpr double far_out_of_balance = 5e-3, slow = 0.1;
 constexpr double near_the_end = 1e-4;  // of the tangent that slopes are found with
 constexpr double hopeless = 5.0;       // a residual that is so many times the least
+constexpr double at_rest = 1e-10;      // residual below which Newton's method has come to rest
 constexpr double near_enough = 1e-2;   // residual at the end of a part before the last
 constexpr double least_part = 1.0 / 64.0;
 constexpr double largest_change = 10.0;  // over the displacement: beyond it nothing converges
@@ -124,7 +125,7 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
     const MatrixXd way = state.u - u, left = remainder_.linear(way);
     const double residual = largest(left) / std::abs(state.solution.forces.normal);
     state.effort.residual = residual;
-    if (is_last && residual <= finite_rolling_bound && is_balanced(state)) return true;
+    if (is_last && residual <= at_rest && is_balanced(state)) return true;
     if (!is_last && residual <= near_enough) {
       state.u = next(state, std::move(u), left);
       return true;
