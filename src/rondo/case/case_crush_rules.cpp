@@ -61,8 +61,8 @@ void check_depth(CaseValues& in, const Case& c) {
   if (!in.has(depth) || !in.good({depth})) return;
   const double largest = c.analysis.depth.largest();
   const double thickness = c.disk.outer_radius - c.disk.inner_radius;
-  const bool known = !c.mesh && in.good({"disk.outer_radius", "disk.inner_radius"});
-  std::string allowed = "> 0";  // for a mesh: only the file gives its thickness
+  const bool known = is_generated(c) && in.good({"disk.outer_radius", "disk.inner_radius"});
+  std::string allowed = "> 0";  // for a mesh or a section: only the file gives its thickness
   if (known) allowed += fmt::format(" and < outer_radius - inner_radius = {:.6g}", thickness);
   if (largest == 0.0)
     in.fault(depth, "the body would not be pressed at all", allowed);

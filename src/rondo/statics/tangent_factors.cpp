@@ -5,8 +5,10 @@
 
 #include <Eigen/SparseCore>
 #include <algorithm>
+#include <new>
 #include <utility>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/core/process_wide.hpp"
 
@@ -64,6 +66,7 @@ void TangentFactors::take(std::size_t force, std::size_t move, const Eigen::Matr
 
 void TangentFactors::Part::find_order(cholmod_sparse& k) {
   cholmod_factor* least = cholmod_analyze(&k, &common);
+  if (!least) throw std::bad_alloc();
   const auto* rows = static_cast<const int*>(least->Perm);
   order.assign(rows, rows + k.nrow);
   cholmod_free_factor(&least, &common);
@@ -79,6 +82,7 @@ void TangentFactors::Part::analyse(cholmod_sparse& k) {
   std::ranges::stable_partition(given, [&](int row) { return !is_last[at(row)]; });
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
+  common.postorder = 0;  // it would move touching nodes that have no neighbours but such
   factors = cholmod_analyze_p(&k, given.data(), nullptr, 0, &common);
 }
 
@@ -102,7 +106,7 @@ bool TangentFactors::factor() {
   view.dtype = CHOLMOD_DOUBLE;
   view.sorted = view.packed = 1;
   part_->analyse(view);
-  return cholmod_factorize(&view, part_->factors, &part_->common) != 0 &&
+  return part_->factors && cholmod_factorize(&view, part_->factors, &part_->common) != 0 &&
          part_->common.status == CHOLMOD_OK;
 }
 
@@ -139,7 +143,10 @@ Eigen::MatrixXd TangentFactors::compliance() const {
   for (int r = 0; r < m; ++r) place[at(unknown[r])] = r;
   std::vector<int> sorted;
   for (const std::size_t node : part_->touching)
-    for (int i = 0; i < 3; ++i) sorted.push_back(place[at(part_->first[node] + i)]);
+    for (int i = 0; i < 3; ++i) {
+      sorted.push_back(place[at(part_->first[node] + i)]);
+      RONDO_DEMAND(sorted.back() >= 0, node);
+    }
   const Eigen::MatrixXd inverse =
       part_->last_block(m).triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(m, m));
   const Eigen::MatrixXd columns = inverse(Eigen::all, sorted);

@@ -104,6 +104,25 @@ TEST(TangentFactors, AnOrderServesOtherTouchingNodes) {
   EXPECT_LT((second.compliance() - chain.inverse().block<3, 3>(12, 12)).norm(), 1e-12);
 }
 
+/// In a row with its springs to the next but one, some touching nodes have no neighbours but such.
+TEST(TangentFactors, TouchingNodesMayHaveTouchingNeighboursAlone) {
+  const Chain chain;
+  const std::vector<std::size_t> all{11, 1, 10, 3, 9, 2, 4, 8, 5};
+  TangentFactors k(chain.moves, all);
+  chain.give(k);
+  ASSERT_TRUE(k.factor());
+  const Eigen::MatrixXd found = k.compliance(), inverse = chain.inverse();
+  for (std::size_t a = 0; a < all.size(); ++a)
+    for (std::size_t b = 0; b < all.size(); ++b) {
+      const auto row = static_cast<Eigen::Index>(3 * a), column = static_cast<Eigen::Index>(3 * b);
+      EXPECT_LT((found.block<3, 3>(row, column) -
+                 inverse.block<3, 3>(static_cast<Eigen::Index>(3 * all[a] - 3),
+                                     static_cast<Eigen::Index>(3 * all[b] - 3)))
+                    .norm(),
+                1e-12 * inverse.norm());
+    }
+}
+
 TEST(TangentFactors, TellsWhatIsNotPositiveDefinite) {
   const std::vector<char> moves{1};
   TangentFactors k(moves, {});

@@ -197,7 +197,8 @@ std::string WheelCrush::not_solved(statics::RollingEnd end) const {
   const char* const less =
       path_.has_load() ? "a smaller analysis.load" : "a smaller analysis.depth";
   if (end == statics::RollingEnd::no_contact)
-    return fmt::format("no contact was found that carries it; {}", less);
+    return path_.has_load() ? fmt::format("no contact was found that carries it; {}", less)
+                            : fmt::format("nothing touches any more; {}", less);
   if (remainder_ && left.effort.turns > 1)
     return fmt::format(
         "the nonlinear forces (inflation.nonlinear) were not balanced: {} problems of contact "

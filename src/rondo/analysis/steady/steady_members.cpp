@@ -45,6 +45,12 @@ constexpr JsonMember<Sloped> slope_rows[] = {
 Json slope_of(const SteadyFigures& k, const statics::RollingSlope& slope) {
   return object_of(slope_rows, {slope.forces, slope.height, slope.speed, k.solid});
 }
+/// No force depends on how fast the wheel turns.
+bool has_no_rate(const Case& c) noexcept {
+  return c.analysis.inertia == RollingMasses::none && c.damping.mass == 0.0 &&
+         c.damping.stiffness == 0.0;
+}
+
 constexpr JsonMember<SteadyFigures> slopes_rows[] = {
     {"by_friction", "object", "", "By `ground.friction`",
      [](const SteadyFigures& k) { return slope_of(k, k.s.slopes.by_friction); },
@@ -165,8 +171,11 @@ constexpr JsonMember<SteadyFigures> figures_rows[] = {
      [](const SteadyFigures& k) -> Json { return k.mean.shear; }},
     {"slopes", "object", "",
      "Derivatives with respect to what is given, in SI units, each with the same members; with "
-     "`inflation.nonlinear` those of the last step of Newton's method",
-     [](const SteadyFigures& k) { return object_of(slopes_rows, k); },
+     "`inflation.nonlinear` only without inertia (`analysis.inertia`) and `[damping]`, which the "
+     "tangent of the last step leaves out",
+     [](const SteadyFigures& k) {
+       return !k.finite || has_no_rate(k.c) ? object_of(slopes_rows, k) : absent();
+     },
      [] { return texts_of(slopes_rows); }},
     {"power", "object", "", "Balance of powers",
      [](const SteadyFigures& k) { return object_of(power_rows, k.power); },

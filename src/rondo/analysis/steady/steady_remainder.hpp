@@ -18,8 +18,7 @@ namespace rondo::study {
 class SteadyRemainder final : public statics::RollingRemainder {
  public:
   /// Mesh, sector and part must outlive it. @param sector K about the state, of all that is linear
-  /// in steady rolling. @param candidates rows that may
-  /// touch. @param samples P of a sector's pass
+  /// in steady rolling. @param candidates rows that may touch. @param samples P of a sector's pass
   SteadyRemainder(const mesh::Mesh& mesh, const fem::SolidSector& sector,
                   const dynamics::SweptPart& part, std::vector<int> candidates, int samples,
                   int threads);

@@ -76,12 +76,13 @@ void SteadyState<2>::solve_finite() {
 template <>
 void SteadyState<3>::solve_finite() {
   const statics::RollingBody<3>& body = body_.harmonics->body();
-  SteadyRemainder remainder(body_.mesh, body_.sector, *body_.swept, body.candidates, body.samples,
-                            body.threads);
-  finite_ = statics::solve_finite_rolling(window_, drive_, remainder);
+  auto remainder = std::make_unique<SteadyRemainder>(body_.mesh, body_.sector, *body_.swept,
+                                                     body.candidates, body.samples, body.threads);
+  finite_ = statics::solve_finite_rolling(window_, drive_, *remainder);
   solution_ = finite_->solution;
   for (int place = 0; place < body.samples; ++place)
-    energies_.push_back(remainder.energy(wrapped(sense() * place, body.samples)));
+    energies_.push_back(remainder->energy(wrapped(sense() * place, body.samples)));
+  remainder_ = std::move(remainder);
 }
 
 template <int D>
@@ -96,20 +97,32 @@ void SteadyState<D>::solve() {
                                   finite_ ? finite_->remainder : Eigen::MatrixXd());
   u_ = finite_ ? std::move(finite_->u) : window_.harmonics().fields(spectrum_, 0.0, false);
   if (case_.analysis.estimate_slip_error) estimate_slip_error();
+  remainder_.reset();  // its tangent takes the most memory
 }
 
-/// By the same state with the other difference; of one that is not linear by its last linear
-/// problem.
+/// With the tangent at a state that is not linear.
+template <>
+void SteadyState<2>::linearise(statics::RollingWindow<2>& /*other*/) const {
+  RONDO_DEMAND(false);  // a plane body with rubber is refused
+}
+template <>
+void SteadyState<3>::linearise(statics::RollingWindow<3>& other) const {
+  other.take_response(window_.response());
+  other.include(window_.pairs());
+  other.soften([this](const statics::RollingPair& of, const statics::RollingPair& by) {
+    return remainder_->softness(of, by);
+  });
+  other.foresee(solution_.force, Eigen::MatrixXd::Zero(u_.rows(), u_.cols()));
+}
+
+/// By the same state with the other difference; of one that is not linear by its tangent.
 template <int D>
 void SteadyState<D>::estimate_slip_error() {
   using statics::SlipDifference;
   const bool is_upwind = slip_of(case_) == SlipDifference::upwind;
   statics::RollingWindow<D> other =
       body_.window_of(case_, is_upwind ? SlipDifference::bdf2 : SlipDifference::upwind);
-  if (finite_) {
-    other.take_response(window_.response());
-    other.include(window_.pairs());
-  }
+  if (finite_) linearise(other);
   const statics::RollingSolution found =
       finite_ ? statics::solve_rolling_from(other, drive_, solution_) : solved(other);
   if (found.end != statics::RollingEnd::solved) return;

@@ -3,6 +3,7 @@
 /// sector's pass (docs/theory.md, 11.3 and 11.4, and docs/wheel3d.md), in the plane (D = 2), where
 /// all is per metre of width, or in space.
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +58,8 @@ class SteadyState final : public RolledState {
   [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;
   [[nodiscard]] statics::RollingSolution solved(statics::RollingWindow<D>& window) const;
   void solve_finite();
+  /// Gives another window the state, with its tangent.
+  void linearise(statics::RollingWindow<D>& other) const;
   void solve();
   void estimate_slip_error();
   void refuse() const;
@@ -89,8 +92,9 @@ class SteadyState final : public RolledState {
   statics::RollingDrive drive_;
   statics::RollingSolution solution_;
   Eigen::MatrixXcd spectrum_;
-  std::optional<statics::FiniteRolling> finite_;  ///< none: the motion is linear
-  std::vector<double> energies_;                  ///< (P) stored at each place, if it is not [J]
+  std::optional<statics::FiniteRolling> finite_;          ///< none: the motion is linear
+  std::unique_ptr<statics::RollingRemainder> remainder_;  ///< until the state is found
+  std::vector<double> energies_;  ///< (P) stored at each place, if it is not [J]
   statics::RollingPower power_;
   std::optional<SlipError> slip_error_;    ///< none: not asked for, or not found
   Eigen::MatrixXd u_, rate_;               ///< (D n_local, L); rates once a place is filled

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rondo/core/process_wide.hpp"
+#include "rondo/statics/anderson.hpp"
 #include "rondo/statics/steady/rolling_power.hpp"
 
 namespace rondo::statics {
@@ -14,15 +15,16 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
+constexpr std::size_t depth = 24;  // of the acceleration
 constexpr int most_turns = 200;
-constexpr int turns_without_gain = 12;  // that do not halve the residual
-// A residual above the first, or that falls by less than the second, asks for a new tangent.
-constexpr double far_out_of_balance = 5e-3, slow = 0.1;
-constexpr double near_the_end = 1e-4;  // of the tangent that slopes are found with
-constexpr double hopeless = 5.0;       // a residual that is so many times the least
-constexpr double at_rest = 1e-10;      // residual below which Newton's method has come to rest
-constexpr double near_enough = 1e-2;   // residual at the end of a part before the last
+constexpr int turns_without_gain = 30;       // that do not halve the residual
+constexpr double far_out_of_balance = 5e-3;  // residual above which each step has its own tangent
+constexpr double near_the_end = 1e-4;        // residual where the last tangent may be taken
+constexpr double at_rest = 1e-10;            // residual below which the iteration has come to rest
+constexpr double hopeless = 20.0;            // a residual that is so many times the least
+constexpr double near_enough = 1e-2;         // residual at the end of a part before the last
 constexpr double least_part = 1.0 / 64.0;
 constexpr double largest_change = 10.0;  // over the displacement: beyond it nothing converges
 
@@ -30,47 +32,77 @@ double largest(const MatrixXd& a) noexcept {
   return a.cwiseAbs().maxCoeff();
 }
 
+VectorXd as_long_as(VectorXd force, Index size) {
+  force.conservativeResizeLike(VectorXd::Zero(size));
+  return force;
+}
+
+/// Where a step begins.
+struct Point {
+  MatrixXd u;
+  VectorXd force;  ///< (D pairs so far) of contact
+};
+
 class Solver {
  public:
   Solver(RollingWindow<3>& window, RollingRemainder& remainder)
       : window_(window), remainder_(remainder) {}
 
-  /// From the fields so far to the state under a drive, or near it if more of the way follows.
-  /// @return whether it was found
-  bool go(const RollingDrive& drive, bool is_last, FiniteRolling& state);
   /// From a state on: with its tangent, or from where the body just touches. @return whether the
   /// tangent is positive definite
   bool begin(const FiniteRolling& state, bool has_moved);
+  /// From the fields so far to the state under a drive, or near it if more of the way follows.
+  /// @return whether it was found
+  bool go(const RollingDrive& drive, bool is_last, FiniteRolling& state);
 
  private:
-  bool turn(const RollingDrive& drive, const MatrixXd& u, FiniteRolling& state);
-  [[nodiscard]] bool is_balanced(FiniteRolling& state);
-  [[nodiscard]] MatrixXd next(const FiniteRolling& state, MatrixXd u, const MatrixXd& left);
+  bool turn(const RollingDrive& drive, const Point& at, FiniteRolling& state);
   bool take_tangent(const MatrixXd& u);
-  void foresee(const MatrixXd& u, const RollingSolution& solution);
+  void foresee(const Point& at);
+  [[nodiscard]] bool is_balanced(FiniteRolling& state);
+  [[nodiscard]] Point next(const FiniteRolling& state, Point at, const MatrixXd& left);
+  [[nodiscard]] Point accelerated(const Point& at, const Point& next);
 
   RollingWindow<3>& window_;
   RollingRemainder& remainder_;
+  Anderson acceleration_{depth};
   bool has_tangent_ = false;
 };
+
+bool Solver::take_tangent(const MatrixXd& u) {
+  acceleration_.restart();
+  has_tangent_ = remainder_.take_tangent(u, window_.pairs());
+  if (has_tangent_)
+    window_.soften([&remainder = remainder_](const RollingPair& of, const RollingPair& by) {
+      return remainder.softness(of, by);
+    });
+  return has_tangent_;
+}
+
+bool Solver::begin(const FiniteRolling& state, bool has_moved) {
+  if (has_moved) return take_tangent(state.u);
+  has_tangent_ = false;
+  window_.soften({});
+  return true;
+}
 
 /// Contact is solved for where Newton's step leads to under forces λ, u + K'^-1 (r + λ - λ'), of
 /// which the harmonics alone have where K leads to. At u and the forces λ' so far, r is what is out
 /// of balance.
-void Solver::foresee(const MatrixXd& u, const RollingSolution& solution) {
-  RollingSolution now = solution;
-  now.force.conservativeResizeLike(Eigen::VectorXd::Zero(window_.problem().size()));
-  const MatrixXd way = window_.harmonics().fields(spectrum_of(window_, now), 0.0, false) - u;
+void Solver::foresee(const Point& at) {
+  RollingSolution now;
+  now.force = as_long_as(at.force, window_.problem().size());
+  const MatrixXd way = window_.harmonics().fields(spectrum_of(window_, now), 0.0, false) - at.u;
   MatrixXd more = -way;
   remainder_.move(remainder_.linear(way), more);
   window_.foresee(now.force, more);
 }
 
-/// The state under the remainder at u.
-bool Solver::turn(const RollingDrive& drive, const MatrixXd& u, FiniteRolling& state) {
-  if (!remainder_.find(u, state.remainder) || !state.remainder.allFinite()) return false;
+/// The state under the remainder at a point.
+bool Solver::turn(const RollingDrive& drive, const Point& at, FiniteRolling& state) {
+  if (!remainder_.find(at.u, state.remainder) || !state.remainder.allFinite()) return false;
   window_.take_response(window_.harmonics().response(-state.remainder));
-  if (has_tangent_) foresee(u, state.solution);
+  if (has_tangent_) foresee(at);
   const RollingEffort before = state.solution.effort;
   state.solution = solve_rolling_from(window_, drive, state.solution);
   state.solution.effort.newton_steps += before.newton_steps;
@@ -84,50 +116,52 @@ bool Solver::turn(const RollingDrive& drive, const MatrixXd& u, FiniteRolling& s
 
 /// By how much the load that the state is in equilibrium with differs from that of its own fields.
 bool Solver::is_balanced(FiniteRolling& state) {
-  MatrixXd own;
-  if (!remainder_.find(state.u, own)) return false;
-  state.effort.residual = largest(own - state.remainder) / std::abs(state.solution.forces.normal);
+  if (!remainder_.find(state.u, state.own_remainder)) return false;
+  state.effort.residual =
+      largest(state.own_remainder - state.remainder) / std::abs(state.solution.forces.normal);
   return state.effort.residual <= finite_rolling_bound;
 }
 
-bool Solver::take_tangent(const MatrixXd& u) {
-  has_tangent_ = remainder_.take_tangent(u, window_.pairs());
-  if (has_tangent_)
-    window_.soften([this](const RollingPair& of, const RollingPair& by) {
-      return remainder_.softness(of, by);
-    });
-  return has_tangent_;
-}
-
-bool Solver::begin(const FiniteRolling& state, bool has_moved) {
-  if (has_moved) return take_tangent(state.u);
-  has_tangent_ = false;
-  window_.soften({});
-  return true;
-}
-
 /// Newton's step: K' (next - u) = K (state - u), with the tangent K' near u.
-MatrixXd Solver::next(const FiniteRolling& state, MatrixXd u, const MatrixXd& left) {
-  if (!has_tangent_) return state.u;
-  remainder_.move(left, u);
-  return u;
+Point Solver::next(const FiniteRolling& state, Point at, const MatrixXd& left) {
+  if (has_tangent_)
+    remainder_.move(left, at.u);
+  else
+    at.u = state.u;
+  at.force = state.solution.force;
+  return at;
 }
 
+/// Fields, and forces as the displacements that they make.
+Point Solver::accelerated(const Point& at, const Point& next) {
+  const Index fields = at.u.size(), forces = next.force.size();
+  if (at.force.size() != forces) acceleration_.restart();
+  const double compliance = window_.problem().matrix.diagonal().cwiseAbs().mean();
+  VectorXd from(fields + forces), to(fields + forces);
+  from << at.u.reshaped(), compliance * as_long_as(at.force, forces);
+  to << next.u.reshaped(), compliance * next.force;
+  const VectorXd found = acceleration_.next(from, to);
+  return {found.head(fields).reshaped(at.u.rows(), at.u.cols()), found.tail(forces) / compliance};
+}
+
+/// Far out of balance each step of Newton's method has its own tangent. Near it the tangent stays,
+/// and what it lacks, inertia and damping, is left to the acceleration.
 bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
-  MatrixXd u = state.u;
-  double best = std::numeric_limits<double>::infinity(), last = best;
-  int gained = 0;
-  double of_tangent = last;  // the residual where it was taken
+  acceleration_.restart();
+  Point at{state.u, state.solution.force};
+  double best = std::numeric_limits<double>::infinity();
+  double of_tangent = best;  // the residual where it was taken
   bool is_old = false;       // the tangent
+  int gained = 0;
   for (int n = 0; state.effort.turns < most_turns; ++n) {
-    if (is_old && !take_tangent(u)) return false;
-    if (!turn(drive, u, state)) return false;
-    const MatrixXd way = state.u - u, left = remainder_.linear(way);
+    if (is_old && !take_tangent(at.u)) return false;
+    if (!turn(drive, at, state)) return false;
+    const MatrixXd way = state.u - at.u, left = remainder_.linear(way);
     const double residual = largest(left) / std::abs(state.solution.forces.normal);
     state.effort.residual = residual;
     if (is_last && residual <= at_rest && is_balanced(state)) return true;
     if (!is_last && residual <= near_enough) {
-      state.u = next(state, std::move(u), left);
+      state.u = next(state, std::move(at), left).u;
       return true;
     }
     if (n > 0 && residual < 0.5 * best) best = residual, gained = n;
@@ -135,10 +169,9 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
         residual > hopeless * best)
       return false;
     if (is_old) of_tangent = residual;
-    is_old = residual > far_out_of_balance || (n > 0 && residual > slow * last) ||
-             (is_last && of_tangent > near_the_end);
-    last = residual;
-    u = next(state, std::move(u), left);
+    is_old = residual > far_out_of_balance || (is_last && of_tangent > near_the_end);
+    Point to = next(state, at, left);
+    at = is_old ? std::move(to) : accelerated(at, to);
   }
   return false;
 }
@@ -199,8 +232,10 @@ FiniteRolling solve_finite_rolling(RollingWindow<3>& window, const RollingDrive&
     found.solution = std::move(next.solution);
     found.effort = next.effort;
   }
-  if (done < 1.0 && found.solution.end == RollingEnd::solved)
+  // What leaves the ground on the way, after the linear problem had a solution, tells nothing.
+  if (done < 1.0 && (found.solution.end == RollingEnd::solved || found.effort.turns > 1))
     found.solution.end = RollingEnd::not_solved;
+  window.soften({});  // the tangent is not the window's
   return found;
 }
 

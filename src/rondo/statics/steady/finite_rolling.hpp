@@ -50,6 +50,7 @@ struct FiniteRolling {
   Eigen::MatrixXcd spectrum;  ///< of all rows, (D n_local, L/2 + 1)                     [m]
   Eigen::MatrixXd u;          ///< its fields, (D n_local, L)                            [m]
   Eigen::MatrixXd remainder;  ///< the load that is in equilibrium with them, (D n_local, L)    [N]
+  Eigen::MatrixXd own_remainder;  ///< that of the fields themselves, (D n_local, L)            [N]
   FiniteEffort effort;
 };
 

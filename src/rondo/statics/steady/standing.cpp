@@ -112,7 +112,7 @@ void StandingWheel::take(FiniteRolling found, StandingState& next) {
   next.solution = found.solution;
   if (next.solution.end != RollingEnd::solved) return;
   next.u = found.u;
-  find_inner(found.remainder, next);
+  find_inner(found.own_remainder, next);
   finite_ = std::move(found);
 }
 

@@ -36,8 +36,9 @@ std::string deeply_pressed(const std::string& key, double deflection, const Wall
   if (share <= deep_tyre_share) return {};
   return fmt::format(
       "{}: the rim comes down by {}{:.4g} m, {:.3g} % of the {:.4g} m of the wall, and tyres bear "
-      "their load at 10 to {:.0f} %: what is linear about the inflated state "
-      "(inflation.nonlinear) is too stiff there; give {}",
+      "their load at 10 to {:.0f} %; linear forces (inflation.nonlinear = \"none\") are far too "
+      "stiff "
+      "there: give {}",
       key, found, deflection, 100.0 * share, wall.thickness, 100.0 * deep_tyre_share, instead);
 }
 
@@ -87,7 +88,9 @@ PhysicalFigures pressed_in(const std::string& key, double deflection, const Pres
     told.figures.emplace_back("load", fmt::format("about {:.6g} N, {:.2g} of pressure times width "
                                                   "times radius; an estimate by the air alone",
                                                   two_digits(load), load / air_force(tyre.state)));
-  add(deeply_pressed(key, deflection, tyre.wall, "", "a larger motion.height"), told);
+  const char* const less =
+      key == "analysis.depth" ? "a smaller analysis.depth" : "a larger motion.height";
+  add(deeply_pressed(key, deflection, tyre.wall, "", less), told);
   return told;
 }
 
