@@ -199,7 +199,7 @@ MEMBERS: dict[str, tuple[str, str, str]] = {
     "steady.slip_area": ("m2", "m2", "Sum of the deformed areas of the nodes of a 3D wheel that slip"),
     "steady.pressure_max": ("Pa", "Pa", "Largest pressure of all samples, over the deformed boundary"),
     "steady.shear_max": ("Pa", "Pa", "Largest shear of all samples, over the deformed boundary"),
-    "steady.slopes": ("", "", "Derivatives with respect to what is given, in SI units, each with the same members; not with inflation.nonlinear, where differences of two runs tell them"),
+    "steady.slopes": ("", "", "Derivatives with respect to what is given, in SI units, each with the same members; with inflation.nonlinear only without inertia (analysis.inertia) and [damping], which the tangent of the last step leaves out"),
     "steady.slopes.by_friction": ("", "", "By ground.friction"),
     "steady.slopes.by_friction.force_x": ("", "", "Derivative of force_x"),
     "steady.slopes.by_friction.force_y": ("", "", "Derivative of force_y"),

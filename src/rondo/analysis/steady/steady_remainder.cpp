@@ -28,8 +28,9 @@ Eigen::Matrix3d turn_of(Complex r) noexcept {
 
 SteadyRemainder::SteadyRemainder(const mesh::Mesh& mesh, const fem::SolidSector& sector,
                                  const dynamics::SweptPart& part, std::vector<int> candidates,
-                                 int samples, int threads)
+                                 int samples, double damped, int threads)
     : sector_(sector),
+      of_rest_(damped / (1.0 + damped)),
       candidates_(std::move(candidates)),
       threads_(threads),
       moves_(mesh.n_nodes(), 0),
@@ -103,10 +104,14 @@ void SteadyRemainder::include(std::span<const RollingPair> pairs) {
 std::optional<statics::TangentFactors> SteadyRemainder::tangent_at(
     Place& of, std::size_t place, const TouchingNodes& touching) const {
   statics::TangentFactors tangent(moves_, touching.nodes(), order_);
-  of.wheel.tangent(of.u, angle(place), std::vector(sector_.turn.size(), 1.0),
-                   [&](std::size_t force, std::size_t move, const Eigen::Matrix3d& block) {
-                     tangent.take(force, move, block);
-                   });
+  const auto add = [&](std::span<const Vec3> u, double share) {
+    of.wheel.tangent(u, angle(place), std::vector(sector_.turn.size(), 1.0),
+                     [&](std::size_t force, std::size_t move, const Eigen::Matrix3d& block) {
+                       tangent.take(force, move, share * block);
+                     });
+  };
+  add(of.u, 1.0 - of_rest_);
+  if (of_rest_ > 0.0) add(std::vector<Vec3>(of.u.size()), of_rest_);
   if (!tangent.factor()) return {};
   return tangent;
 }

@@ -18,10 +18,12 @@ namespace rondo::study {
 class SteadyRemainder final : public statics::RollingRemainder {
  public:
   /// Mesh, sector and part must outlive it. @param sector K about the state, of all that is linear
-  /// in steady rolling. @param candidates rows that may touch. @param samples P of a sector's pass
+  /// in steady rolling. @param candidates rows that may touch. @param samples P of a sector's pass.
+  /// @param damped how much of K its damping is like: the tangent has as much of it, without which
+  /// Newton's steps are too long where the wheel is softer than that
   SteadyRemainder(const mesh::Mesh& mesh, const fem::SolidSector& sector,
                   const dynamics::SweptPart& part, std::vector<int> candidates, int samples,
-                  int threads);
+                  double damped, int threads);
 
   bool find(const Eigen::MatrixXd& u, Eigen::MatrixXd& force) override;
   Eigen::MatrixXd linear(const Eigen::MatrixXd& u) override;
@@ -61,6 +63,7 @@ class SteadyRemainder final : public statics::RollingRemainder {
   void find_at(std::size_t place, const Eigen::MatrixXd& u, Eigen::MatrixXd& force);
 
   const fem::SolidSector& sector_;
+  double of_rest_;  ///< share of K in the tangent
   std::vector<int> candidates_;
   int threads_;
   std::vector<char> moves_;    ///< (n)

@@ -76,8 +76,11 @@ void SteadyState<2>::solve_finite() {
 template <>
 void SteadyState<3>::solve_finite() {
   const statics::RollingBody<3>& body = body_.harmonics->body();
-  auto remainder = std::make_unique<SteadyRemainder>(body_.mesh, body_.sector, *body_.swept,
-                                                     body.candidates, body.samples, body.threads);
+  // Half of what stiffness damping has beside K at the highest harmonic of a turn, L/2.
+  const double damped =
+      0.25 * window_.harmonics().turn() * std::abs(body.spin) * body.stiffness_damping;
+  auto remainder = std::make_unique<SteadyRemainder>(
+      body_.mesh, body_.sector, *body_.swept, body.candidates, body.samples, damped, body.threads);
   finite_ = statics::solve_finite_rolling(window_, drive_, *remainder);
   solution_ = finite_->solution;
   for (int place = 0; place < body.samples; ++place)

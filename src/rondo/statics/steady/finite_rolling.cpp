@@ -21,8 +21,9 @@ constexpr std::size_t depth = 24;  // of the acceleration
 constexpr int most_turns = 200;
 constexpr int turns_without_gain = 30;       // that do not halve the residual
 constexpr double far_out_of_balance = 5e-3;  // residual above which each step has its own tangent
+constexpr double much_nearer = 0.2;          // a residual over that of the tangent
 constexpr double near_the_end = 1e-4;        // residual where the last tangent may be taken
-constexpr double at_rest = 1e-10;            // residual below which the iteration has come to rest
+constexpr double at_rest = 1e-11;            // residual below which the iteration has come to rest
 constexpr double hopeless = 20.0;            // a residual that is so many times the least
 constexpr double near_enough = 1e-2;         // residual at the end of a part before the last
 constexpr double least_part = 1.0 / 64.0;
@@ -169,7 +170,8 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
         residual > hopeless * best)
       return false;
     if (is_old) of_tangent = residual;
-    is_old = residual > far_out_of_balance || (is_last && of_tangent > near_the_end);
+    is_old = residual > far_out_of_balance ||
+             (is_last && of_tangent > near_the_end && residual < much_nearer * of_tangent);
     Point to = next(state, at, left);
     at = is_old ? std::move(to) : accelerated(at, to);
   }
