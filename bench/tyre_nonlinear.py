@@ -91,8 +91,8 @@ def study(program, name, folder):
     results = folder / name
     subprocess.run([program, "sweep", ROOT / "cases" / "studies" / f"{name}.toml", "-o", results, "--quiet",
                     *(["--resume"] if results.exists() else [])], check=True)
-    with open(results / "sweep.csv", newline="") as file:
-        return [(results / row["directory"], row) for row in csv.DictReader(file)]
+    with open(results / "results.csv", newline="") as file:
+        return [(results / "runs" / f"{int(row['run']):04}", row) for row in csv.DictReader(file)]
 
 
 def columns_of(path):

@@ -151,6 +151,7 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
   acceleration_.restart();
   Point at{state.u, state.solution.force};
   double best = std::numeric_limits<double>::infinity();
+  double last = best;
   double of_tangent = best;  // the residual where it was taken
   bool is_old = false;       // the tangent
   int gained = 0;
@@ -160,7 +161,8 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
     const MatrixXd way = state.u - at.u, left = remainder_.linear(way);
     const double residual = largest(left) / std::abs(state.solution.forces.normal);
     state.effort.residual = residual;
-    if (is_last && residual <= at_rest && is_balanced(state)) return true;
+    const bool rests = residual <= at_rest || residual > 0.5 * last;  // or is down to round-off
+    if (is_last && rests && residual <= finite_rolling_bound && is_balanced(state)) return true;
     if (!is_last && residual <= near_enough) {
       state.u = next(state, std::move(at), left).u;
       return true;
@@ -172,6 +174,7 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
     if (is_old) of_tangent = residual;
     is_old = residual > far_out_of_balance ||
              (is_last && of_tangent > near_the_end && residual < much_nearer * of_tangent);
+    last = residual;
     Point to = next(state, at, left);
     at = is_old ? std::move(to) : accelerated(at, to);
   }
