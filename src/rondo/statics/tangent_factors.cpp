@@ -79,7 +79,7 @@ void TangentFactors::Part::analyse(cholmod_sparse& k) {
   for (const std::size_t node : touching)
     for (int i = 0; i < 3; ++i) is_last[at(first[node] + i)] = 1;
   std::vector<int> given = order;
-  std::ranges::stable_partition(given, [&](int row) { return !is_last[at(row)]; });
+  std::stable_partition(given.begin(), given.end(), [&](int row) { return !is_last[at(row)]; });
   common.nmethods = 1;
   common.method[0].ordering = CHOLMOD_GIVEN;
   common.postorder = 0;  // it would move touching nodes that have no neighbours but such
