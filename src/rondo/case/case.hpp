@@ -282,6 +282,12 @@ inline bool has_rubber(const Case& c) noexcept {
   return !c.inflation && has_rubber_law(c);
 }
 
+/// Whether the law of some part is for large strains and is used as such: of rubber, and of a tyre
+/// whose rubber is nonlinear, if only near the ground.
+inline bool has_large_strains(const Case& c) noexcept {
+  return has_rubber(c) || (c.inflation && c.inflation->nonlinear >= TyreMotion::window);
+}
+
 /// Reads and validates. `settings` are the "a.b=value" of --set, applied before validation; a value
 /// that is not TOML is taken as a string. @throws InputError with every fault, in the file's order.
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings = {});

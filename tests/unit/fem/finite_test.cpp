@@ -340,8 +340,7 @@ TEST(SweptForces, OfAWheelAreTheGradientOfItsEnergy) {
   // The cords keep their sign of strain over h, so that the tangent is the change of the forces.
   std::vector<Vec3> change(x.size()), after(x.size()), before(x.size());
   const std::vector<Vec3> way = at_random(x.size(), 1.0, 8);
-  const std::vector<double> every(n_sectors, 1.0);
-  wheel.tangent(u, every, [&](std::size_t f, std::size_t move, const Eigen::Matrix3d& block) {
+  wheel.tangent(u, [&](std::size_t f, std::size_t move, const Eigen::Matrix3d& block) {
     const Eigen::Vector3d more = block * Eigen::Vector3d(way[move].x, way[move].y, way[move].z);
     change[f] += Vec3(more[0], more[1], more[2]);
   });

@@ -15,7 +15,6 @@
 #include "rondo/analysis/crush/crush_record.hpp"
 #include "rondo/analysis/crush/crush_solver.hpp"
 #include "rondo/analysis/out_of_range.hpp"
-#include "rondo/core/keep_larger.hpp"
 
 namespace rondo::study {
 namespace {
@@ -33,9 +32,7 @@ class CrushAnalysis final : public Analysis {
         solver_(make_crush_solver(c, options, setup_)) {
     refuse_held_in_ground(c, setup_);
     tell_physical_figures(c, setup_);
-    if (options.resume)
-      throw case_error(c, "analysis.kind", "a crush has no checkpoints to resume from",
-                       "\"dynamic\", or --overwrite instead of --resume");
+    refuse_resume(c, options);
   }
 
   [[nodiscard]] CheckReport check(double trial) override;
@@ -57,7 +54,6 @@ class CrushAnalysis final : public Analysis {
   [[nodiscard]] int n_increments() const noexcept { return setup_.path.n_increments(); }
   [[nodiscard]] bool iterate();
   Progress take_next(Recorder& recorder);
-  void count(const statics::CrushReport& report);
 
   const Case& case_;
   CrushSetup setup_;
@@ -67,11 +63,9 @@ class CrushAnalysis final : public Analysis {
   std::unique_ptr<CrushSolver> solver_;
   double prepare_s_ = 0.0;
   statics::CrushState state_;
-  bool iterated_ = false;     ///< the solver has nothing left to iterate
-  int increments_ = 0;        ///< done, whose results are kept
-  double residual_ = 0.0;     ///< largest of the law
-  double equilibrium_ = 0.0;  ///< largest of K u = Hᵀ r
-  double penetration_ = 0.0;  ///< largest [m]
+  bool iterated_ = false;  ///< the solver has nothing left to iterate
+  int increments_ = 0;     ///< done, whose results are kept
+  CrushLargest largest_;
   std::optional<std::string> trouble_;
 };
 
@@ -156,7 +150,7 @@ Progress CrushAnalysis::take_next(Recorder& recorder) {
   const std::vector<Vec2> before = state_.u;
   std::string wrong;
   const statics::CrushReport report = solver_->take(k, state_, wrong);
-  count(report);
+  largest_.take(report.residual, report.equilibrium, report.penetration);
   if (wrong.empty()) wrong = beyond_files(setup_, state_);
   if (wrong.empty()) wrong = strain_.look(state_.u, {}, setup_.path.parameter(k));
   if (!wrong.empty()) {
@@ -173,27 +167,9 @@ Progress CrushAnalysis::take_next(Recorder& recorder) {
   return {k, n};
 }
 
-void CrushAnalysis::count(const statics::CrushReport& r) {
-  residual_ = keep_larger(residual_, r.residual);
-  equilibrium_ = keep_larger(equilibrium_, r.equilibrium);
-  penetration_ = std::max(penetration_, r.penetration);
-}
-
 void CrushAnalysis::summarise(Json& j, RunReport& r) const {
-  r.steps = increments_;
-  r.reached = reached_text(increments_, state_.depth, state_.slide);
-  r.energy_residual_relative = state_.works.relative;
-  r.energy_residual_bound = residual_bound;
-  r.contact_residual_max = residual_;
-  r.penetration_max_m = penetration_;
-  const bool tables = setup_.path.is_of_tables();
-  strain_.summarise({"", tables ? " of the increments" : " of the depth"}, j, r);
-  add_increments(increments_, j);
-  add_steps_done(r, j);
-  add_contact_residual(r, j);
-  add_equilibrium(equilibrium_, j);
-  add_energy_residual(r, state_.works.exchanged, j);
-  add_penetration(r, j);
+  summarise_crush({increments_, state_.depth, state_.slide, state_.works}, largest_, setup_.path,
+                  strain_, j, r);
   solver_->summarise(state_, j, r);
 }
 

@@ -3,6 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "rondo/analysis/base/shared_members.hpp"
+#include "rondo/core/keep_larger.hpp"
+
 namespace rondo::study {
 namespace {
 
@@ -80,12 +85,33 @@ std::string reached_text(int increments, double depth, double slide) {
   return slide == 0.0 ? text : fmt::format("{} and a slide of {:.6g} m", text, slide);
 }
 
-void add_increments(int increments, Json& j) {
-  add_members(increments_rows, increments, j);
+void refuse_resume(const Case& c, const RunOptions& options) {
+  if (options.resume)
+    throw case_error(c, "analysis.kind", "a crush has no checkpoints to resume from",
+                     "\"dynamic\", or --overwrite instead of --resume");
 }
 
-void add_equilibrium(double equilibrium, Json& j) {
-  add_members(equilibrium_rows, equilibrium, j);
+void CrushLargest::take(double of_law, double of_equilibrium, double of_penetration) {
+  residual = keep_larger(residual, of_law);
+  equilibrium = keep_larger(equilibrium, of_equilibrium);
+  penetration = std::max(penetration, of_penetration);
+}
+
+void summarise_crush(const CrushEnd& end, const CrushLargest& largest, const CrushPath& path,
+                     const StrainWatch& strain, Json& j, RunReport& r) {
+  r.steps = end.increments;
+  r.reached = reached_text(end.increments, end.depth, end.slide);
+  r.energy_residual_relative = end.works.relative;
+  r.energy_residual_bound = residual_bound;
+  r.contact_residual_max = largest.residual;
+  r.penetration_max_m = largest.penetration;
+  strain.summarise({"", path.is_of_tables() ? " of the increments" : " of the depth"}, j, r);
+  add_members(increments_rows, end.increments, j);
+  add_steps_done(r, j);
+  add_contact_residual(r, j);
+  add_members(equilibrium_rows, largest.equilibrium, j);
+  add_energy_residual(r, end.works.exchanged, j);
+  add_penetration(r, j);
 }
 
 void add_wheel_effort(const WheelEffort& effort, Json& j) {

@@ -4,8 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/base/analysis.hpp"
+#include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/crush/crush_path.hpp"
 #include "rondo/output/run_files.hpp"
+#include "rondo/statics/crush.hpp"
 
 namespace rondo::study {
 
@@ -14,10 +17,27 @@ void describe_path(const AnalysisCase& analysis, const CrushPath& path, double p
                    Json& json);
 /// "8 increments to a depth of 0.02 m and a slide of 0.001 m"
 [[nodiscard]] std::string reached_text(int increments, double depth, double slide);
-/// @param increments done
-void add_increments(int increments, Json& json);
-/// @param equilibrium largest residual of all increments
-void add_equilibrium(double equilibrium, Json& json);
+
+/// A crush has nothing to resume from. @throws InputError: it is asked for
+void refuse_resume(const Case& c, const RunOptions& options);
+
+/// What is largest of all increments.
+struct CrushLargest {
+  double residual = 0.0;     ///< of the law
+  double equilibrium = 0.0;  ///< residual
+  double penetration = 0.0;  ///< [m]
+
+  void take(double residual, double equilibrium, double penetration);
+};
+/// Where a crush has come.
+struct CrushEnd {
+  int increments = 0;  ///< done, whose results are kept
+  double depth = 0.0, slide = 0.0;
+  const statics::CrushWorks& works;
+};
+/// Adds what run.json has of it, and what the user is told.
+void summarise_crush(const CrushEnd& end, const CrushLargest& largest, const CrushPath& path,
+                     const StrainWatch& strain, Json& json, RunReport& report);
 
 /// What was done for the increments of a wheel, and where it is at the end.
 struct WheelEffort {

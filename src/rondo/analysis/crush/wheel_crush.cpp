@@ -4,17 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
 #include "rondo/analysis/base/disk.hpp"
-#include "rondo/analysis/base/shared_members.hpp"
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/physical.hpp"
-#include "rondo/analysis/build/plausible/number_range.hpp"
 #include "rondo/analysis/build/plausible/plausible.hpp"
-#include "rondo/analysis/build/tyre/inflation_members.hpp"
 #include "rondo/analysis/crush/crush_members.hpp"
 #include "rondo/analysis/crush/crush_record.hpp"
 #include "rondo/analysis/crush/wheel_crush_record.hpp"
@@ -26,7 +22,6 @@
 namespace rondo::study {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Body = SteadyBody<3>;
 
 /// Height of the center above the ground where the wheel first touches, in X [m].
@@ -47,19 +42,20 @@ class WheelCrush final : public Analysis {
         path_(c.analysis),
         body_(std::static_pointer_cast<Body>(rolled_body(c, options.shared))),
         ground_(c.ground->shape),
+        held_reach_(path_.has_load() ? held_reach(body_->mesh, c.motion.camber) : 0.0),
         strain_(body_->mesh, body_->materials) {
-    if (c.inflation && c.inflation->nonlinear >= TyreMotion::window) strain_.take_large_strains();
+    if (has_large_strains(c)) strain_.take_large_strains();
     refuse_held_in_ground(c, body_->mesh, path_, touch_height_of(body_->mesh, c.motion.camber));
     tell_physical_figures(c, {body_->mesh, body_->materials, body_->inflation}, path_, told_);
-    if (options.resume)
-      throw case_error(c, "analysis.kind", "a crush has no checkpoints to resume from",
-                       "\"dynamic\", or --overwrite instead of --resume");
+    refuse_resume(c, options);
   }
 
   [[nodiscard]] CheckReport check(double trial) override;
   [[nodiscard]] RecordPlan record_plan() const override;
   void prepare() override;
-  [[nodiscard]] std::vector<std::string> warnings() const override;
+  [[nodiscard]] std::vector<std::string> warnings() const override {
+    return all_warnings(case_, *body_, told_.warnings);
+  }
   void describe(Json& json) const override;
 
   Progress begin(Recorder& recorder) override;
@@ -74,22 +70,22 @@ class WheelCrush final : public Analysis {
   [[nodiscard]] std::string not_solved(statics::RollingEnd end) const;
   [[nodiscard]] std::string wrong_state() const;
   void count();
-  void append(int k, Recorder& recorder);
+  [[nodiscard]] const char* finer() const;
+  WheelCrushSums append(int k, Recorder& recorder);
 
   const Case& case_;
   int threads_;  ///< 0: chosen by size
   CrushPath path_;
   std::shared_ptr<Body> body_;
   contact::Ground ground_;
+  double held_reach_;  ///< of held nodes below the center, where a load is given [m]; else 0
   StrainWatch strain_;
   PhysicalFigures told_;
   std::unique_ptr<SteadyRemainder> remainder_;     ///< null: the forces are linear
   std::unique_ptr<statics::StandingWheel> wheel_;  ///< null: the harmonics have no solution
   std::unique_ptr<WheelCrushRecord> record_;
-  int increments_ = 0;        ///< done, whose results are kept
-  double residual_ = 0.0;     ///< largest of the law
-  double equilibrium_ = 0.0;  ///< largest
-  double penetration_ = 0.0;  ///< largest [m]
+  int increments_ = 0;  ///< done, whose results are kept
+  CrushLargest largest_;
   WheelEffort effort_;
   std::optional<std::string> trouble_;
 };
@@ -97,18 +93,11 @@ class WheelCrush final : public Analysis {
 CheckReport WheelCrush::check(double /*trial*/) {
   const int n = n_increments();
   CheckReport r;
-  r.nodes = body_->mesh.n_nodes();
-  r.elements = body_->mesh.n_elements();
-  r.dofs = body_->dofs;
-  r.candidates = body_->mesh.boundary.size();
-  r.wave_speeds = fem::wave_speeds(case_.material);
+  r.lines = told_.figures;
+  add_body(case_, *body_, r);
   r.steps = n;
   r.snapshots = static_cast<std::size_t>(n);
-  r.memory_bytes = body_->memory(case_);
   r.disk_bytes = disk_needed(record_plan(), false).all;
-  r.lines = told_.figures;
-  if (body_->inflation)
-    for (Told& line : told_of(*body_->inflation)) r.lines.push_back(std::move(line));
   r.lines.emplace_back("sectors", fmt::format("{} of {} degrees of freedom", body_->mesh.n_sectors,
                                               body_->sector_dofs));
   r.lines.emplace_back("increments", fmt::format("{} to {}", n, path_.target(n)));
@@ -139,10 +128,7 @@ RecordPlan WheelCrush::record_plan() const {
 void WheelCrush::prepare() {
   body_->find_harmonics(case_, threads_);
   if (!body_->has_solution()) {
-    trouble_ = fmt::format(
-        "the harmonics of a sector have no solution in the range of floating-point numbers; other "
-        "values, first of {}: are they in SI units?",
-        furthest_key(case_));
+    trouble_ = no_solution(case_);
     return;
   }
   const statics::RollingBody<3>& body = body_->harmonics->body();
@@ -156,24 +142,16 @@ void WheelCrush::prepare() {
   record_ = std::make_unique<WheelCrushRecord>(body_->mesh, *wheel_);
 }
 
-std::vector<std::string> WheelCrush::warnings() const {
-  std::vector<std::string> all = case_.warnings;
-  all.insert(all.end(), body_->warnings.begin(), body_->warnings.end());
-  all.insert(all.end(), told_.warnings.begin(), told_.warnings.end());
-  return all;
-}
-
 void WheelCrush::describe(Json& j) const {
-  add_size(body_->mesh.n_nodes(), body_->dofs, j);
-  add_wheel({}, body_->mesh.n_sectors, case_.motion.camber, j);
-  if (body_->inflation) add_inflation(*body_->inflation, j);
+  describe_body(case_, *body_, j);
   describe_path(case_.analysis, path_, body_->harmonics_wall_s, j);
 }
 
-void WheelCrush::append(int k, Recorder& recorder) {
+WheelCrushSums WheelCrush::append(int k, Recorder& recorder) {
   const WheelCrushSums sums = record_->sum_up();
   append_row({path_, k, floor_of(case_), wheel_->state(), sums}, recorder.rows());
   recorder.rows_added();
+  return sums;
 }
 
 /// The first row is that of first touch.
@@ -193,6 +171,12 @@ statics::StandingTarget WheelCrush::target(int k) const {
   return to;
 }
 
+/// What makes the increment smaller that is not solved.
+const char* WheelCrush::finer() const {
+  const bool slides = !path_.is_of_tables() && increments_ >= case_.analysis.increments;
+  return slides ? "analysis.slide_increments" : "analysis.increments";
+}
+
 std::string WheelCrush::not_solved(statics::RollingEnd end) const {
   const statics::StandingState& left = wheel_->left();
   const char* const less =
@@ -203,21 +187,22 @@ std::string WheelCrush::not_solved(statics::RollingEnd end) const {
   if (remainder_ && left.effort.turns > 1)
     return fmt::format(
         "the nonlinear forces (inflation.nonlinear) were not balanced: {} problems of contact "
-        "leave {:.2g} of the load (bound {:.0e}); more analysis.increments, {}, a smaller "
+        "leave {:.2g} of the load (bound {:.0e}); more {}, {}, a smaller "
         "ground.friction, or inflation.nonlinear = \"none\"",
-        left.effort.turns, left.effort.residual, statics::finite_rolling_bound, less);
+        left.effort.turns, left.effort.residual, statics::finite_rolling_bound, finer(), less);
   const statics::RollingEffort& effort = left.solution.effort;
   return fmt::format(
       "the contact was not solved after {} Newton steps and {} sweeps on {} contact nodes; more "
-      "analysis.increments, {}, a smaller ground.friction, or a coarser {}",
-      effort.newton_steps, effort.sweeps, wheel_->window().pairs().size(), less,
+      "{}, "
+      "{}, a smaller ground.friction, or a coarser {}",
+      effort.newton_steps, effort.sweeps, wheel_->window().pairs().size(), finer(), less,
       case_.section ? "section.file or fewer section.sectors" : "disk.mesh");
 }
 
 /// What is wrong with a state that was found; empty: nothing.
 std::string WheelCrush::wrong_state() const {
   const statics::StandingState& s = wheel_->state();
-  if (is_generated(case_) && s.solution.height <= case_.disk.inner_radius)
+  if (s.solution.height <= held_reach_)
     return fmt::format(
         "the ground is within the rim: the center is {:.6g} m above it; a smaller analysis.load",
         s.solution.height);
@@ -254,8 +239,7 @@ Progress WheelCrush::advance(Recorder& recorder) {
     return {increments_, n};
   }
   increments_ = k;
-  append(k, recorder);
-  const WheelCrushSums sums = record_->sum_up();
+  const WheelCrushSums sums = append(k, recorder);
   record_->fill({path_, k, floor_of(case_), wheel_->state(), sums}, before,
                 recorder.next_snapshot());
   recorder.add_snapshot();
@@ -264,9 +248,7 @@ Progress WheelCrush::advance(Recorder& recorder) {
 
 void WheelCrush::count() {
   const statics::StandingState& s = wheel_->state();
-  residual_ = keep_larger(residual_, s.residual);
-  equilibrium_ = keep_larger(equilibrium_, s.equilibrium);
-  penetration_ = std::max(penetration_, s.penetration);
+  largest_.take(s.residual, s.equilibrium, s.penetration);
   effort_.height = floor_of(case_) + s.solution.height;
   effort_.depth = s.depth;
   effort_.newton_steps = std::max(effort_.newton_steps, s.solution.effort.newton_steps);
@@ -280,18 +262,7 @@ void WheelCrush::summarise(Json& j, RunReport& r) const {
   r.steps = increments_;
   if (!wheel_) return;
   const statics::StandingState& s = wheel_->state();
-  r.reached = reached_text(increments_, s.depth, s.slide);
-  r.energy_residual_relative = s.works.relative;
-  r.energy_residual_bound = residual_bound;
-  r.contact_residual_max = residual_;
-  r.penetration_max_m = penetration_;
-  strain_.summarise({"", path_.is_of_tables() ? " of the increments" : " of the depth"}, j, r);
-  add_increments(increments_, j);
-  add_steps_done(r, j);
-  add_contact_residual(r, j);
-  add_equilibrium(equilibrium_, j);
-  add_energy_residual(r, s.works.exchanged, j);
-  add_penetration(r, j);
+  summarise_crush({increments_, s.depth, s.slide, s.works}, largest_, path_, strain_, j, r);
   if (increments_ == 0) return;
   add_wheel_effort(effort_, j);
   const statics::RollingForces& f = s.solution.forces;

@@ -12,9 +12,7 @@
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/physical.hpp"
-#include "rondo/analysis/build/plausible/number_range.hpp"
 #include "rondo/analysis/build/plausible/plausible.hpp"
-#include "rondo/analysis/build/tyre/inflation_members.hpp"
 #include "rondo/analysis/figures/steady_figures.hpp"
 #include "rondo/analysis/steady/scheme_power.hpp"
 #include "rondo/analysis/steady/steady_case.hpp"
@@ -41,7 +39,7 @@ class SteadyRolling final : public Analysis {
         body_(rolled_body(c, options.shared)),
         ground_(c.ground->shape),
         strain_(body_->mesh, body_->materials) {
-    if (c.inflation && c.inflation->nonlinear >= TyreMotion::window) strain_.take_large_strains();
+    if (has_large_strains(c)) strain_.take_large_strains();
     refuse_held_in_ground(c, body_->mesh);
     tell_physical_figures(c, {body_->mesh, body_->materials, body_->inflation}, told_);
     if (options.resume)
@@ -53,10 +51,7 @@ class SteadyRolling final : public Analysis {
   [[nodiscard]] RecordPlan record_plan() const override;
   void prepare() override;
   [[nodiscard]] std::vector<std::string> warnings() const override {
-    std::vector<std::string> all = case_.warnings;
-    all.insert(all.end(), body_->warnings.begin(), body_->warnings.end());
-    all.insert(all.end(), told_.warnings.begin(), told_.warnings.end());
-    return all;
+    return all_warnings(case_, *body_, told_.warnings);
   }
   void describe(Json& json) const override;
 
@@ -91,18 +86,11 @@ class SteadyRolling final : public Analysis {
 
 CheckReport SteadyRolling::check(double /*trial*/) {
   CheckReport r;
-  r.nodes = body_->mesh.n_nodes();
-  r.elements = body_->mesh.n_elements();
-  r.dofs = body_->dofs;
-  r.candidates = body_->mesh.boundary.size();
-  r.wave_speeds = fem::wave_speeds(case_.material);
+  r.lines = told_.figures;
+  add_body(case_, *body_, r);
   r.steps = samples();
   r.snapshots = keeps_fields() ? static_cast<std::size_t>(samples()) : 0;
-  r.memory_bytes = body_->memory(case_);
   r.disk_bytes = disk_needed(record_plan(), false).all;
-  r.lines = told_.figures;
-  if (body_->inflation)
-    for (Told& line : told_of(*body_->inflation)) r.lines.push_back(std::move(line));
   r.lines.emplace_back(
       "sectors", fmt::format("{} of {} degrees of freedom, {} samples each", body_->mesh.n_sectors,
                              body_->sector_dofs, samples()));
@@ -130,10 +118,7 @@ RecordPlan SteadyRolling::record_plan() const {
 void SteadyRolling::prepare() {
   body_->find_harmonics(case_, threads_);
   if (!body_->has_solution()) {
-    trouble_ = fmt::format(
-        "the harmonics of a sector have no solution in the range of floating-point numbers; other "
-        "values, first of {}: are they in SI units?",
-        furthest_key(case_));
+    trouble_ = no_solution(case_);
     return;
   }
   const auto begin = Clock::now();
@@ -142,9 +127,7 @@ void SteadyRolling::prepare() {
 }
 
 void SteadyRolling::describe(Json& j) const {
-  add_size(body_->mesh.n_nodes(), body_->dofs, j);
-  if (is_solid(case_)) add_wheel({}, body_->mesh.n_sectors, case_.motion.camber, j);
-  if (body_->inflation) add_inflation(*body_->inflation, j);
+  describe_body(case_, *body_, j);
   describe_steady(body_->harmonics_wall_s, solve_s_, j);
 }
 

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <utility>
 
+#include "rondo/analysis/base/shared_members.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/plausible/number_range.hpp"
+#include "rondo/analysis/build/tyre/inflation_members.hpp"
 #include "rondo/analysis/steady/steady_body.hpp"
 #include "rondo/core/limits/processors.hpp"
 
@@ -92,6 +94,38 @@ int threads_for(const Case& c, const RolledBody& body, int asked) {
   const auto samples = static_cast<std::size_t>(c.analysis.samples_per_sector);
   if (samples * body.dofs < 2 * single_thread_dofs) return 1;
   return allowed_processors();
+}
+
+void add_body(const Case& c, const RolledBody& body, CheckReport& r) {
+  r.nodes = body.mesh.n_nodes();
+  r.elements = body.mesh.n_elements();
+  r.dofs = body.dofs;
+  r.candidates = body.mesh.boundary.size();
+  r.wave_speeds = fem::wave_speeds(c.material);
+  r.memory_bytes = body.memory(c);
+  if (!body.inflation) return;
+  for (Told& line : told_of(*body.inflation)) r.lines.push_back(std::move(line));
+}
+
+void describe_body(const Case& c, const RolledBody& body, Json& j) {
+  add_size(body.mesh.n_nodes(), body.dofs, j);
+  if (is_solid(c)) add_wheel({}, body.mesh.n_sectors, c.motion.camber, j);
+  if (body.inflation) add_inflation(*body.inflation, j);
+}
+
+std::string no_solution(const Case& c) {
+  return fmt::format(
+      "the harmonics of a sector have no solution in the range of floating-point numbers; other "
+      "values, first of {}: are they in SI units?",
+      furthest_key(c));
+}
+
+std::vector<std::string> all_warnings(const Case& c, const RolledBody& body,
+                                      const std::vector<std::string>& more) {
+  std::vector<std::string> all = c.warnings;
+  all.insert(all.end(), body.warnings.begin(), body.warnings.end());
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
 std::shared_ptr<RolledBody> rolled_body(const Case& c, SharedBody* shared) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/base/analysis.hpp"
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/modal/critical_speeds.hpp"
 #include "rondo/output/recorder.hpp"
@@ -110,6 +111,16 @@ void demand_free_shape(const Case& c, double lowest, double radius);
 
 /// The number of threads: the number asked for, or for 0 one chosen by size.
 [[nodiscard]] int threads_for(const Case& c, const RolledBody& body, int asked);
+
+/// What `check` tells of size, memory and the inflated state.
+void add_body(const Case& c, const RolledBody& body, CheckReport& report);
+/// What run.json has of them. @pre find_harmonics()
+void describe_body(const Case& c, const RolledBody& body, Json& json);
+/// The message where has_solution() is false.
+[[nodiscard]] std::string no_solution(const Case& c);
+/// The warnings of case and body, and others.
+[[nodiscard]] std::vector<std::string> all_warnings(const Case& c, const RolledBody& body,
+                                                    const std::vector<std::string>& more);
 
 /// Assembled, or that of the run before where it fits, harmonics included.
 /// @param shared null: nothing is kept @throws InputError as assemble(); more memory than there is

@@ -105,7 +105,7 @@ std::optional<statics::TangentFactors> SteadyRemainder::tangent_at(
     Place& of, std::size_t place, const TouchingNodes& touching) const {
   statics::TangentFactors tangent(moves_, touching.nodes(), order_);
   const auto add = [&](std::span<const Vec3> u, double share) {
-    of.wheel.tangent(u, angle(place), std::vector(sector_.turn.size(), 1.0),
+    of.wheel.tangent(u, angle(place),
                      [&](std::size_t force, std::size_t move, const Eigen::Matrix3d& block) {
                        tangent.take(force, move, share * block);
                      });

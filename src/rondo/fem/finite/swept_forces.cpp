@@ -25,10 +25,8 @@ std::array<std::size_t, 4> SweptForces::nodes(const std::array<int, 2>& line,
   return {here + at(line[0]), here + at(line[1]), next + at(line[1]), next + at(line[0])};
 }
 
-void SweptForces::tangent(std::span<const Vec3> u, std::span<const double> weight,
-                          const TakeBlock& take) const {
+void SweptForces::tangent(std::span<const Vec3> u, const TakeBlock& take) const {
   for (std::size_t j = 0; j < n_sectors_; ++j) {
-    if (weight[j] == 0.0) continue;
     const auto add = [&](const std::array<int, 2>& line, double share, auto&& energy_of) {
       const std::array<std::size_t, 4> node = nodes(line, j);
       FaceCorners x;

@@ -35,9 +35,8 @@ class SweptForces {
   /// Adds f(x + u) - f(x), the gradient of the energy, to `force`.
   /// @return E(x + u) - E(x) - f(x)·u, of cords and air [J]
   double add_to(std::span<const Vec3> u, std::span<Vec3> force) const noexcept;
-  /// Hands on the stiffness at x + u of the columns that have a weight, without that weight.
-  void tangent(std::span<const Vec3> u, std::span<const double> weight,
-               const TakeBlock& take) const;
+  /// Hands on the stiffness at x + u.
+  void tangent(std::span<const Vec3> u, const TakeBlock& take) const;
 
  private:
   /// The nodes of a line's face in a column.

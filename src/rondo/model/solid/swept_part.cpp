@@ -29,12 +29,11 @@ double SweptWheel::find(std::span<const Vec3> u, double angle, std::span<Vec3> f
   return rubber_ ? energy + find_rubber(u, angle, force) : energy;
 }
 
-void SweptWheel::tangent(std::span<const Vec3> u, double angle, std::span<const double> near,
+void SweptWheel::tangent(std::span<const Vec3> u, double angle,
                          const fem::finite::TakeBlock& take) const {
   const fem::SolidSector& k = part_.sector;
   const std::size_t n = k.turn.size();
-  for (std::size_t j = 0; j < n; ++j) {
-    if (near[j] == 0.0) continue;
+  for (std::size_t j = 0; j < n; ++j)
     for (std::size_t a = 0; a < k.n_local(); ++a)
       for (const fem::SolidSector::Entry& e : k.row(a)) {
         const std::size_t to = (j + n + static_cast<std::size_t>(e.shift + 1) - 1) % n;
@@ -43,12 +42,10 @@ void SweptWheel::tangent(std::span<const Vec3> u, double angle, std::span<const 
                  Eigen::Map<const Eigen::Matrix3d>(e.block.data()) *
                  fem::finite::about_axle(k.turn[to]).transpose());
       }
-  }
-  faces_.tangent(u, near, take);
+  faces_.tangent(u, take);
   if (!rubber_) return;
   std::vector<double> weight(n);
   part_.window.find(angle, weight);
-  for (std::size_t j = 0; j < n; ++j) weight[j] *= near[j];
   rubber_->tangent(u, weight, take);
 }
 

@@ -22,10 +22,8 @@ class SweptWheel {
   /// @param angle by which the wheel has turned [rad]
   /// @return E(x + u) - E(x) - f(x)·u [J]
   double find(std::span<const Vec3> u, double angle, std::span<Vec3> force) noexcept;
-  /// Hands on the stiffness at u of the columns near the ground.
-  /// @param near (n_sectors) 1: it is near, 0: it is not
-  void tangent(std::span<const Vec3> u, double angle, std::span<const double> near,
-               const fem::finite::TakeBlock& take) const;
+  /// Hands on the stiffness at u.
+  void tangent(std::span<const Vec3> u, double angle, const fem::finite::TakeBlock& take) const;
   /// What the window's motion between the last two places gave to the rubber of columns that
   /// entered, less what it took from those that left [J].
   [[nodiscard]] double window_work() const noexcept { return window_work_; }

@@ -161,8 +161,11 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
     const MatrixXd way = state.u - at.u, left = remainder_.linear(way);
     const double residual = largest(left) / std::abs(state.solution.forces.normal);
     state.effort.residual = residual;
+    if (is_old) of_tangent = residual;
     const bool rests = residual <= at_rest || residual > 0.5 * last;  // or is down to round-off
-    if (is_last && rests && residual <= finite_rolling_bound && is_balanced(state)) return true;
+    if (is_last && rests && residual <= finite_rolling_bound && of_tangent <= near_the_end &&
+        is_balanced(state))
+      return true;
     if (!is_last && residual <= near_enough) {
       state.u = next(state, std::move(at), left).u;
       return true;
@@ -171,7 +174,6 @@ bool Solver::go(const RollingDrive& drive, bool is_last, FiniteRolling& state) {
     if (!(largest(way) < largest_change * largest(state.u)) || n - gained > turns_without_gain ||
         residual > hopeless * best)
       return false;
-    if (is_old) of_tangent = residual;
     is_old = residual > far_out_of_balance ||
              (is_last && of_tangent > near_the_end && residual < much_nearer * of_tangent);
     last = residual;

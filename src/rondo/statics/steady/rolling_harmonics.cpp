@@ -247,13 +247,22 @@ typename RollingHarmonics<D>::Block RollingHarmonics<D>::spectrum(const Eigen::M
 }
 
 template <int D>
+std::vector<Index> RollingHarmonics<D>::candidate_rows() const {
+  std::vector<Index> rows;
+  for (const int a : body_.candidates)
+    for (Index i = 0; i < D; ++i) rows.push_back(D * a + i);
+  return rows;
+}
+
+template <int D>
 typename RollingHarmonics<D>::Block RollingHarmonics<D>::on_candidates(
     const Block& spectrum) const {
-  Block rows(static_cast<Index>(D * n_candidates()), spectrum.cols());
-  for (std::size_t a = 0; a < n_candidates(); ++a)
-    rows.template middleRows<D>(static_cast<Index>(D * a)) =
-        spectrum.template middleRows<D>(D * body_.candidates[a]);
-  return rows;
+  return spectrum(candidate_rows(), Eigen::all);
+}
+
+template <int D>
+Eigen::MatrixXd RollingHarmonics<D>::on_candidates(const Eigen::MatrixXd& field) const {
+  return field(candidate_rows(), Eigen::all);
 }
 
 template <int D>

@@ -95,6 +95,8 @@ class RollingHarmonics {
   [[nodiscard]] Block spectrum(const Eigen::MatrixXd& force, RollingGravity gravity) const;
   /// The rows of the candidates, (D C, L/2 + 1).
   [[nodiscard]] Block on_candidates(const Block& spectrum) const;
+  /// Those of a field, (D C, L).
+  [[nodiscard]] Eigen::MatrixXd on_candidates(const Eigen::MatrixXd& field) const;
   /// Makes response() ready: factors of all harmonics, factors_memory() bytes.
   void keep_factors();
   [[nodiscard]] std::size_t factors_memory() const noexcept;
@@ -119,6 +121,7 @@ class RollingHarmonics {
   [[nodiscard]] double weight(const Block& spectrum, RollingGravity gravity) const;
 
  private:
+  [[nodiscard]] std::vector<Eigen::Index> candidate_rows() const;
   void move_masses();
   [[nodiscard]] bool has_inertia(int k) const noexcept;
   [[nodiscard]] RollingOrder order(int k) const noexcept;

@@ -170,10 +170,15 @@ void RollingWindow<D>::count_from(Eigen::MatrixXd displacement) {
 template <int D>
 void RollingWindow<D>::take_response(Eigen::MatrixXcd spectrum) {
   response_ = std::move(spectrum);
-  more_ = harmonics_.fields(harmonics_.on_candidates(response_), 0.0, false);
   problem_.base_weight = gravity_.down * gravity_.down * harmonics_.weight_torque();
   if (const double spin = harmonics_.body().spin; spin != 0.0)
     problem_.base_weight -= harmonics_.weight(response_, gravity_) / spin;
+  foresee_nothing();
+}
+
+template <int D>
+void RollingWindow<D>::foresee_nothing() {
+  more_ = harmonics_.fields(harmonics_.on_candidates(response_), 0.0, false);
   fill_bases();
 }
 
@@ -186,6 +191,7 @@ template <int D>
 void RollingWindow<D>::soften(Softness softness) {
   RONDO_DEMAND(D == 3);
   softness_ = std::move(softness);
+  if (response_.size() > 0) foresee_nothing();
   fill_columns(0);
 }
 
@@ -202,10 +208,10 @@ void RollingWindow<D>::foresee(const Eigen::VectorXd& force, const Eigen::Matrix
   }
   const int before = static_cast<int>(weights_.size());  // samples that the ways of a pair take in
   const int first = low - before, last = std::min(high + before, first + harmonics_.turn() - 1);
+  more_ += harmonics_.on_candidates(more);
 #pragma omp parallel for num_threads(harmonics_.body().threads) schedule(static)
   for (std::size_t a = 0; a < harmonics_.n_candidates(); ++a) {
     const auto row = static_cast<Index>(D * a);
-    more_.middleRows<D>(row) += more.middleRows<D>(D * harmonics_.body().candidates[a]);
     for (int m = first; m <= last; ++m)
       for (const auto& [pair, f] : forces)
         more_.block<D, 1>(row, static_cast<Index>(harmonics_.wrapped(m))) -=

@@ -45,12 +45,13 @@ class RollingWindow {
   /// @param force (D pairs) [N] @return whether there were any
   bool include_touching(double height, const Eigen::VectorXd& force);
   /// What forces on all rows make of the body besides spin, weight and contact: all gaps and ways
-  /// change by it. @param spectrum (D n_local, L/2 + 1) by RollingHarmonics::response() [m].
+  /// change by it. @param spectrum (D n_local, L/2 + 1) by RollingHarmonics::response() [m]
   void take_response(Eigen::MatrixXcd spectrum);
   /// In space, what a force on a pair moves another by beyond what the harmonics say, in the frames
   /// of their sectors [m/N].
   using Softness = std::function<NodeMatrix<D>(const RollingPair& of, const RollingPair& by)>;
-  /// From now on forces move all pairs by so much more. @param softness empty: no more
+  /// From now on forces move all pairs by so much more; nothing is foreseen. @param softness empty:
+  /// no more
   void soften(Softness softness);
   /// Until the next response, the softness counts for what forces differ from certain ones, under
   /// which the candidates are displaced by so much more than the harmonics say.
@@ -88,6 +89,7 @@ class RollingWindow {
   [[nodiscard]] NodeVector<D> free_place(const RollingPair& p) const noexcept;
   [[nodiscard]] NodeVector<D> free_way(const RollingPair& p) const noexcept;
   [[nodiscard]] NodeVector<D> way_from_origin(const RollingPair& p) const noexcept;
+  void foresee_nothing();
   void fill_bases();
   void fill_base(Eigen::Index pair);
   void fill_column(Eigen::Index of, Eigen::Index from);

@@ -49,13 +49,6 @@ void each_candidate(const RollingHarmonics<3>& h, Visit&& visit) {
     for (int m = 0; m < h.turn(); ++m) visit(RollingPair{a, m});
 }
 
-MatrixXd on_candidates(const RollingHarmonics<3>& h, const MatrixXd& u) {
-  MatrixXd rows(static_cast<Index>(3 * h.n_candidates()), u.cols());
-  for (std::size_t a = 0; a < h.n_candidates(); ++a)
-    rows.middleRows<3>(static_cast<Index>(3 * a)) = u.middleRows<3>(3 * h.body().candidates[a]);
-  return rows;
-}
-
 /// Forces of an earlier state of the window, which has more pairs by now.
 VectorXd padded(VectorXd force, Index size) {
   force.conservativeResizeLike(VectorXd::Zero(size));
@@ -134,7 +127,7 @@ bool StandingWheel::solve(const StandingTarget& target, StandingState& next) {
                            .speed = target.slide - state_.slide,
                            .friction = friction_,
                            .load = target.load};
-  window_.count_from(on_candidates(harmonics_, state_.u));
+  window_.count_from(harmonics_.on_candidates(state_.u));
   if (remainder_) {
     take(solve_finite(drive, target), next);
   } else {

@@ -101,7 +101,7 @@ nlohmann::json read_member(const SweepStudy& study, const PlannedMember& member,
     return {{"columns", type_of(c).figures.columns.size()},
             {"hash", hash_of(write_case(kept_case(c)) + meshes.of(c))},  // wherever it is
             {"body", hash_of(body_key(c) + meshes.of(c))},
-            {"is_linear", !has_rubber(c)},
+            {"is_linear", !has_large_strains(c)},
             {"finds_modes", type_of(c).finds_modes},
             {"memory_bytes", guessed_memory(c)}};
   } catch (const InputError& error) {

@@ -37,7 +37,7 @@ struct PlannedMember : MemberCost {
   Part part = Part::own;
   std::string hash;          ///< of the case as run and of its mesh
   std::string body;          ///< of the body that members share, see body_key(), and the mesh
-  bool is_linear = true;     ///< whether no part is rubber
+  bool is_linear = true;     ///< whether all strains are meant to be small
   bool finds_modes = false;  ///< whether it is a crush by LATIN-PGD
   /// The member of the same body with whose modes it starts, if that has finished; none: it is the
   /// first of its body, or has no modes.

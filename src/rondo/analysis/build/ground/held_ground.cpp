@@ -20,18 +20,6 @@ Vec2 place_of(const mesh::Mesh& mesh, int node) {
   return mesh.coordinates[at(node)];
 }
 
-/// Largest distance of held nodes from the center towards the ground below a wheel that leans, in
-/// any of its positions [m].
-double reach_below(const mesh::Mesh& mesh, double camber) {
-  double reach = 0.0;
-  for (const int node : mesh.clamped) {
-    const double radius = norm(place_of(mesh, node));
-    const double axial = mesh.is_solid() ? mesh.axial[at(node)] : 0.0;
-    reach = std::max(reach, -GroundFrame(camber).from_wheel({0.0, -radius, axial}).y);
-  }
-  return reach;
-}
-
 /// Whether what is held is farther out than what may touch: then the two are rather swapped.
 bool is_outside(const mesh::Mesh& mesh) {
   const auto farthest = [&](const std::vector<int>& nodes) {
@@ -81,6 +69,16 @@ double depth_at(const Setup& s, double reach, double time) {
 
 }  // namespace
 
+double held_reach(const mesh::Mesh& mesh, double camber) {
+  double reach = 0.0;
+  for (const int node : mesh.clamped) {
+    const double radius = norm(place_of(mesh, node));
+    const double axial = mesh.is_solid() ? mesh.axial[at(node)] : 0.0;
+    reach = std::max(reach, -GroundFrame(camber).from_wheel({0.0, -radius, axial}).y);
+  }
+  return reach;
+}
+
 double held_radius(const mesh::Mesh& mesh) {
   constexpr double round = 0.9;
   double least = 0.0, most = 0.0;
@@ -95,7 +93,7 @@ double held_radius(const mesh::Mesh& mesh) {
 void refuse_held_in_ground(const Case& c, const Setup& s) {
   if (s.mesh.clamped.empty() || !s.model.contact) return;
   constexpr int parts = 500;
-  const double reach = reach_below(s.mesh, s.model.motion.camber);
+  const double reach = held_reach(s.mesh, s.model.motion.camber);
   const double close = touching * extent_of(s.mesh);
   double deepest = depth_at(s, reach, 0.0), when = 0.0;
   const bool follows_tables = !s.model.rim || !(s.model.rim->free_x || s.model.rim->free_y);
@@ -131,7 +129,7 @@ void refuse_held_in_ground(const Case& c, const CrushSetup& s) {
 void refuse_held_in_ground(const Case& c, const mesh::Mesh& mesh, const CrushPath& path,
                            double touch_height) {
   if (path.has_load() || mesh.clamped.empty()) return;
-  const double depth = reach_below(mesh, c.motion.camber) - touch_height + path.largest_depth();
+  const double depth = held_reach(mesh, c.motion.camber) - touch_height + path.largest_depth();
   if (depth > touching * extent_of(mesh)) refuse(c, mesh, depth, "at the largest depth ");
 }
 
@@ -139,7 +137,7 @@ void refuse_held_in_ground(const Case& c, const mesh::Mesh& mesh) {
   if (c.analysis.load || mesh.clamped.empty()) return;
   RONDO_DEMAND(c.ground && !c.ground->shape.profile.empty(), c.ground.has_value());
   const double height = c.motion.height.at(0.0) - c.ground->shape.profile.front().y;
-  const double depth = reach_below(mesh, c.motion.camber) - height;
+  const double depth = held_reach(mesh, c.motion.camber) - height;
   if (depth > touching * extent_of(mesh)) refuse(c, mesh, depth, "");
 }
 

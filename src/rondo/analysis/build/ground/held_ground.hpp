@@ -21,6 +21,10 @@ void refuse_held_in_ground(const Case& c, const mesh::Mesh& mesh, const CrushPat
 /// For steady rolling at a given height. @throws InputError
 void refuse_held_in_ground(const Case& c, const mesh::Mesh& mesh);
 
+/// Largest distance of held nodes from the center towards the ground below a wheel that leans, in
+/// any of its positions [m].
+[[nodiscard]] double held_reach(const mesh::Mesh& mesh, double camber);
+
 /// Radius of held nodes that are about as far from the origin as each other; 0: they are not, or
 /// nothing is held [m]
 [[nodiscard]] double held_radius(const mesh::Mesh& mesh);
