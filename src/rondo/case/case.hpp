@@ -63,7 +63,9 @@ struct MaterialLaw {
   std::vector<std::array<double, 2>> terms;           ///< of "ogden": μ_i [Pa], α_i
   std::optional<double> bulk_modulus;                 ///< of rubber; absent: ν given    [Pa]
   Quadrature integration = Quadrature::full;
-  std::vector<std::array<double, 2>> viscosity;  ///< of rubber: relative modulus, time [s]
+  std::vector<std::array<double, 2>> viscosity;  ///< relative modulus, time [s]
+  double loss_factor = 0.0;                      ///< tan δ in the band; 0: `viscosity` instead
+  Vec2 loss_band;                                ///< its lowest and highest frequency  [Hz]
 
   [[nodiscard]] bool is_rubber() const noexcept { return model != MaterialModel::linear; }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // To add a key: its row here, its member in case.hpp, `docs/cases.md` written again (the test
 // Manual.HasTheKeys says how).
+#include <algorithm>
 #include <numbers>
 
 #include "rondo/case/case_keys.hpp"
@@ -14,6 +15,8 @@ constexpr Allowed positive{{0.0, infinity, true, false}};
 constexpr Allowed not_negative{{0.0, infinity, false, false}};
 constexpr Allowed poisson{{-1.0, 0.5, true, true}};
 constexpr Allowed share{{0.0, 1.0, true, false}};
+constexpr Allowed loss{{0.0, 1.0, true, true}};
+constexpr Allowed loss_or_none{{0.0, 1.0, false, true}};
 constexpr double right_angle = 0.5 * std::numbers::pi;
 constexpr Allowed less_than_upright{{-right_angle, right_angle, true, true}};
 constexpr Allowed of_cords{{-1.5708, 1.5708, false, false}};
@@ -64,6 +67,20 @@ bool is_by_bulk(const Case& c) {
 }
 bool region_is_by_ratio(const Case& c, std::size_t k) {
   return !c.regions[k].law.is_rubber() || !c.regions[k].law.bulk_modulus;
+}
+bool has_loss_factor(const Case& c) {
+  return c.law.loss_factor > 0.0;
+}
+bool has_band(const Case& c) {
+  return has_loss_factor(c) || std::ranges::any_of(c.regions, [](const MaterialRegion& region) {
+           return region.law.loss_factor > 0.0;
+         });
+}
+bool region_has_branches(const Case& c, std::size_t k) {
+  return c.regions[k].law.viscosity != c.law.viscosity;
+}
+bool region_has_loss_factor(const Case& c, std::size_t k) {
+  return c.regions[k].law.loss_factor != c.law.loss_factor;
 }
 bool region_is_rubber(const Case& c, std::size_t k) {
   return c.regions[k].law.is_rubber();
@@ -283,6 +300,15 @@ constexpr CaseKey keys[] = {
      optional.of(in_motion_but_written),
      "\"centrifugal\": the stress of the stationary spin at the initial angular velocity stiffens "
      "the body, so that it does not soften as it spins. \"none\": small strain alone"},
+    {"material.loss_factor", "-", FIELD(law.loss_factor), loss,
+     optional.if_(has_loss_factor, "none"),
+     "Loss factor tan δ of all frequencies within `loss_band`, instead of [[material.viscosity]]: "
+     "3 to 8 branches are fitted, and `rondo check` tells how well. The modulus is that of strains "
+     "slower than the band; it rises with the frequency"},
+    {"material.loss_band", "Hz", FIELD(law.loss_band), any,
+     required.if_(has_band, "required with a loss factor"),
+     "Lowest and highest frequency at which the loss factor is met. A point of a rolling wheel is "
+     "strained at its turns a second and, in the footprint, at up to some hundred times as many"},
 
     {"material.viscosity[].relative_modulus",
      "-",
@@ -290,7 +316,9 @@ constexpr CaseKey keys[] = {
      {{0.0, most_relative_modulus, true, false}},
      required,
      "Ratio g of the branch's shear modulus to μ, which is that of slow strains. The shear modulus "
-     "of sudden strains is μ (1 + Σ g)"},
+     "of sudden strains is μ (1 + Σ g). Of a linear material it is the ratio to Young's modulus, "
+     "and "
+     "Poisson's ratio is the same at all times"},
     {"material.viscosity[].time", "s", FIELD(law.viscosity[k][1]), positive, required,
      "Relaxation time τ, in which the stress of the branch falls to 1/e. Refused below the time "
      "step"},
@@ -337,9 +365,12 @@ constexpr CaseKey keys[] = {
                        "that of [material]; with another model \"full\", for rubber \"b-bar\""),
      "Quadrature of the region's stiffness, as for `material.integration`"},
     {"material.region[].viscosity", "-, s", FIELD(regions[k].law.viscosity), any,
-     of_region.if_item(region_is_rubber, of_region.standard),
-     "Branches [[relative_modulus, time], ...] of the region's rubber, as in "
-     "[[material.viscosity]]; []: none"},
+     of_region.if_item(region_has_branches, of_region.standard),
+     "Branches [[relative_modulus, time], ...] of the region, as in [[material.viscosity]]; []: "
+     "none"},
+    {"material.region[].loss_factor", "-", FIELD(regions[k].law.loss_factor), loss_or_none,
+     of_region.if_item(region_has_loss_factor, of_region.standard),
+     "Loss factor of the region within `material.loss_band`; 0: none"},
 
     {"cords[].curve", "-", FIELD(cords[k].curve), any, required,
      "Physical curve of the section along which the cords lie, on edges of elements; \"layer-K\" "

@@ -299,6 +299,7 @@ void check_case(CaseValues& in, Case& c) {
   check_implicit(in, c);
   check_hati(in, c);
   check_rubber(in, c);
+  check_viscosity(in, c);
   check_output(in, c);
   check_solid(in, c);
   check_inflation(in, c);

@@ -32,6 +32,8 @@ constexpr Synonym synonyms[] = {
     {"law", "material.model"},
     {"hyperelastic", "material.model"},
     {"tau", "material.viscosity[].time"},
+    {"tan_delta", "material.loss_factor"},
+    {"loss_tangent", "material.loss_factor"},
     {"relaxation_time", "material.viscosity[].time"},
     {"prony", "material.viscosity[].relative_modulus"},
     {"omega", "motion.angular_velocity"},

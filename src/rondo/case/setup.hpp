@@ -56,9 +56,11 @@ inline double initial_speed(const Setup& s, std::size_t node) {
   return s.model.solid ? norm(s.velocity.space()[node]) : norm(s.velocity.plane()[node]);
 }
 
-/// The work of the internal forces is a column of its own: they are not linear.
+/// The work of the internal forces is a column of its own: they are not K u alone.
 inline bool has_internal_work(const Setup& s) noexcept {
-  return fem::has_rubber(s.materials) || (s.model.solid && s.model.solid->swept);
+  const dynamics::Model& m = s.model;
+  return fem::has_rubber(s.materials) || !m.viscous.empty() ||
+         (m.solid && (m.solid->swept || !m.solid->viscous.empty()));
 }
 
 }  // namespace rondo::study

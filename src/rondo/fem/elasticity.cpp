@@ -20,14 +20,21 @@ bool has_rubber(std::span<const Material> materials) noexcept {
 }
 
 bool has_branches(std::span<const Material> materials) noexcept {
-  return std::ranges::any_of(
-      materials, [](const Material& m) { return m.rubber && !m.rubber->branches.empty(); });
+  return std::ranges::any_of(materials, [](const Material& m) {
+    return !(m.rubber ? m.rubber->branches : m.branches).empty();
+  });
 }
 
 std::vector<Material> instantaneous(std::span<const Material> materials) {
   std::vector<Material> at_once(materials.begin(), materials.end());
   for (Material& m : at_once) {
-    if (!m.rubber) continue;
+    if (!m.rubber) {
+      double sum = 1.0;
+      for (const ViscousBranch& branch : m.branches) sum += branch.relative_modulus;
+      m.youngs_modulus *= sum;
+      m.branches.clear();
+      continue;
+    }
     const double kappa = m.rubber->bulk_modulus;
     const double mu = m.rubber->shear_modulus() * m.rubber->instantaneous();
     if (!m.rubber->branches.empty()) {  // else the same bits
@@ -54,7 +61,8 @@ ElementLaw element_law(const Material& m) noexcept {
   const Hooke d = hooke(m);
   if (m.integration == Integration::full || m.plane == Plane::stress) return {d, 0.0};
   const double shear = d.d33;
-  return {{4.0 / 3.0 * shear, -2.0 / 3.0 * shear, shear, -1.0}, d.d11 - 4.0 / 3.0 * shear};
+  return {{4.0 / 3.0 * shear, -2.0 / 3.0 * shear, shear, -1.0},
+          m.only_shear ? 0.0 : d.d11 - 4.0 / 3.0 * shear};
 }
 
 WaveSpeeds wave_speeds(const Material& m) noexcept {

@@ -26,6 +26,9 @@ struct Material {
   Integration integration = Integration::full;
   /// The law at finite strain; E and ν then describe its small strains without viscous branches.
   std::optional<Rubber> rubber{};
+  std::vector<ViscousBranch> branches{};  ///< of a linear material, relative to E
+  /// Its resistance against a change of volume is left out: a viscous branch of rubber, with B-bar.
+  bool only_shear = false;
 };
 
 /// The material of cell `cell`. @param materials one for each of mesh.region_names; one for all if
@@ -35,10 +38,10 @@ const Material& material_of(const mesh::Mesh& mesh, std::span<const Material> ma
 
 /// Whether at least one material is rubber at finite strain.
 [[nodiscard]] bool has_rubber(std::span<const Material> materials) noexcept;
-/// Whether at least one rubber has viscous branches.
+/// Whether at least one material has viscous branches.
 [[nodiscard]] bool has_branches(std::span<const Material> materials) noexcept;
-/// Linear materials with the same instantaneous stiffness: for rubber, the shear modulus of its law
-/// and all branches, and its bulk modulus. Used for critical time steps.
+/// Linear materials with the same instantaneous stiffness: with all branches, which of rubber add
+/// to its shear modulus and not to its bulk modulus. Used for critical time steps.
 [[nodiscard]] std::vector<Material> instantaneous(std::span<const Material> materials);
 
 /// σ = D ε with ε = (ε_xx, ε_yy, γ_xy), D = [[d11, d12, 0], [d12, d11, 0], [0, 0, d33]].

@@ -20,10 +20,11 @@ struct OgdenTerm {
   bool operator==(const OgdenTerm&) const = default;
 };
 
-/// A neo-Hookean Maxwell branch parallel to the law.
+/// A Maxwell branch parallel to the law: of rubber a neo-Hookean one.
 struct ViscousBranch {
-  double relative_modulus = 0.0;  ///< g: relative to the long-term shear modulus               [-]
-  double time = 0.0;              ///< τ, of relaxation                                 [s]
+  /// g: of rubber relative to the shear modulus of slow strains, of linear materials to both moduli
+  double relative_modulus = 0.0;
+  double time = 0.0;  ///< τ, of relaxation                                 [s]
   bool operator==(const ViscousBranch&) const = default;
 };
 

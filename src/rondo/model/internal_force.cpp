@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/model/internal_force.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/sum.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 #include "rondo/model/corotated.hpp"
+#include "rondo/model/viscous_branches.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -49,6 +52,90 @@ class AssembledStiffness final : public InternalForce {
  private:
   const Model& model_;
   std::vector<Vec2> force_, before_;  ///< (n) K u_{n+1}, K u_n                        [N/m]
+};
+
+/// K u and viscous branches, whose work is kept as that of rubber is (hyperelastic.cpp).
+class ViscousStiffness final : public InternalForce {
+ public:
+  ViscousStiffness(const Model& model, std::span<const Vec2> u0)
+      : model_(model),
+        branches_(model.viscous, u0, model.dt, model.threads),
+        u_(u0.begin(), u0.end()),
+        force_(model.n_nodes()),
+        before_(model.n_nodes()) {
+    apply(model.stiffness, u0, force_, model.threads);
+    work_.add(elastic_energy(u0));
+    report_.internal_work = report_.stored_energy = work_.value();
+  }
+
+  void evaluate(std::span<const Vec2> u) noexcept override {
+    std::swap(force_, before_);
+    apply(model_.stiffness, u, force_, model_.threads);
+    const double elastic = elastic_energy(u);
+    branches_.move(u, force_);
+    add_work(u);
+    loss_.add(branches_.lost());
+    report_ = {.internal_work = work_.value(),
+               .stored_energy = elastic + branches_.stored(),
+               .window_work = 0.0,
+               .dissipation_viscous = loss_.value(),
+               .least_volume = 1.0};
+    std::ranges::copy(u, u_.begin());
+  }
+  [[nodiscard]] std::span<const Vec2> gradient() const noexcept override { return force_; }
+  [[nodiscard]] double half_step_energy(std::span<const Vec2>,
+                                        std::span<const Vec2>) const noexcept override {
+    return half_step_energy_;
+  }
+  void damping(std::span<Vec2> out) noexcept override {
+    const double rate = model_.stiffness_damping / model_.dt;
+    for_free_nodes(model_, [&](std::size_t k) { out[k] = rate * (force_[k] - before_[k]); });
+  }
+  [[nodiscard]] MaterialReport material() const noexcept override { return report_; }
+
+  void save(SavedState& saved) const override {
+    saved.force = saved.gradient = force_;
+    saved.internal_work = {work_.sum(), work_.correction(), loss_.sum(), loss_.correction()};
+    saved.branches = branches_.save();
+  }
+  void restore(const SavedState& saved) override {
+    demand_size(model_.n_nodes(), saved);
+    RONDO_DEMAND(saved.internal_work.size() == 4, saved.internal_work.size());
+    const Field& u = model_.rim ? saved.u_before : saved.u;
+    u_ = to_vector(u.plane());
+    force_ = to_vector(saved.force.plane());
+    work_ = {saved.internal_work[0], saved.internal_work[1]};
+    loss_ = {saved.internal_work[2], saved.internal_work[3]};
+    branches_.restore(u_, saved.branches);
+  }
+
+ private:
+  /// ½ uᵀ K u, while the force is K u.
+  [[nodiscard]] double elastic_energy(std::span<const Vec2> u) const noexcept {
+    double energy = 0.0;
+    for_free_nodes(model_, [&](std::size_t k) { energy += 0.5 * dot(u[k], force_[k]); });
+    return energy;
+  }
+  /// A_n + ½ f_n·Δu half a step before u_{n+1}; with ½ f_{n+1}·Δu more it is A_{n+1}.
+  void add_work(std::span<const Vec2> u) noexcept {
+    double before = 0.0, now = 0.0;
+    for_free_nodes(model_, [&](std::size_t k) {
+      const Vec2 way = u[k] - u_[k];
+      before += dot(before_[k], way);
+      now += dot(force_[k], way);
+    });
+    half_step_energy_ = work_.value() + 0.5 * before;
+    work_.add(0.5 * (before + now));
+  }
+
+  const Model& model_;
+  ViscousBranches<fem::BlockCsr> branches_;
+  std::vector<Vec2> u_;               ///< (n) the last one                              [m]
+  std::vector<Vec2> force_, before_;  ///< (n) f_{n+1}, f_n                              [N/m]
+  CompensatedSum work_;               ///< A, starting from what is stored at u_0         [J/m]
+  CompensatedSum loss_;               ///< of the branches                               [J/m]
+  double half_step_energy_ = 0.0;     ///< [J/m]
+  MaterialReport report_;
 };
 
 /// Free bodies, possibly beside clamped ones: small strain in the frame of each body's mean
@@ -144,6 +231,7 @@ std::unique_ptr<InternalForce> make_internal_force(const Model& model, std::span
   if (model.internal_force) return model.internal_force(model, u0, poses);
   RONDO_DEMAND(!model.rubber);  // it has its own internal force
   RONDO_DEMAND(model.stiffness.row_start.size() == model.n_nodes() + 1, model.n_nodes());
+  if (!model.viscous.empty()) return std::make_unique<ViscousStiffness>(model, u0);
   if (model.free_bodies.empty()) return std::make_unique<AssembledStiffness>(model, u0);
   return std::make_unique<Corotated>(model, u0, poses);
 }

@@ -16,6 +16,7 @@
 #include "rondo/fem/finite/swept_forces.hpp"
 #include "rondo/fem/finite/swept_rubber.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/fem/viscosity.hpp"
 #include "rondo/mesh/mesh.hpp"
 #include "rondo/model/motion.hpp"
 #include "rondo/model/rim_body.hpp"
@@ -114,7 +115,8 @@ struct SolidBody {
   std::vector<double> axial;  ///< (n) z of X                                 [m]
   fem::SolidSector sector;    ///< K of one sector                            [N/m]
   std::vector<SolidPressure> pressures;
-  std::optional<SweptPart> swept{};  ///< absent: all forces are K u
+  std::optional<SweptPart> swept{};                           ///< absent: all forces are K u
+  std::vector<fem::ViscousPart<fem::SolidSector>> viscous{};  ///< beside K; empty: none
 
   /// K of all that is linear.
   [[nodiscard]] const fem::SolidSector& linear() const noexcept {
@@ -139,8 +141,9 @@ struct Model {
   std::vector<int> free;              ///< nodes that are not clamped, ascending
   fem::BlockCsr stiffness;            ///< K on the free nodes, or empty [N/m²]
   InternalForceMaker internal_force;  ///< of a material other than K's; empty: that of K
-  std::optional<fem::SectorStiffness> sector;  ///< K of one sector; absent: not cyclic
-  std::optional<ImplicitPart> implicit;        ///< absent: all elements are explicit
+  std::vector<fem::ViscousPart<fem::BlockCsr>> viscous;  ///< beside K, plane; empty: none
+  std::optional<fem::SectorStiffness> sector;            ///< K of one sector; absent: not cyclic
+  std::optional<ImplicitPart> implicit;                  ///< absent: all elements are explicit
   /// For rubber, the data of the fused step; internal_force is then set as well, and `stiffness` is
   /// that of small strains.
   std::optional<RubberPart> rubber;

@@ -182,7 +182,9 @@ void put_state(File& file, const dynamics::SavedState& s) {
   put(file, "/state/contact", keys, {"1", "contacts that share nodes, by number"});
   put(file, "/state/impulse", impulses, {"N*s/m", "their impulses in the last step"});
   put(file, "/state/branches", s.branches,
-      {"1", "viscous strains of rubber: xx, yy, xy of each branch of each element"});
+      {"1",
+       "of viscous branches: strains of rubber at finite strain, xx, yy, xy of each branch of each "
+       "element; at small strain displacements [m], of each branch and node"});
   put(file, "/state/internal_work", s.internal_work,
       {"J/m", "of nonlinear forces: work and dissipation, and what their rounding left"});
   put(file, "/state/window", s.window,

@@ -155,7 +155,7 @@ constexpr std::array rubber{
         "at the start on; at `time_s`, and `strain` is that of the half step before",
         [](const H& r) { return r.material.internal_work; }},
     Column<H>{"stored_energy", "J/m",
-              "of the elements, cords and air at `time_s`, viscous branches of rubber included",
+              "of the elements, cords and air at `time_s`, viscous branches included",
               [](const H& r) { return r.material.stored_energy; }},
     Column<H>{"dissipation_viscous", "J/m", "by the branches of `material.viscosity`",
               [](const H& r) { return r.material.dissipation_viscous; }},

@@ -21,6 +21,7 @@
 #include "rondo/model/loaded_rim.hpp"
 #include "rondo/model/solid/swept_part.hpp"
 #include "rondo/model/steps/step_table.hpp"
+#include "rondo/model/viscous_branches.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/output/snapshot_schedule.hpp"
 
@@ -139,9 +140,13 @@ void clear_without_checkpoint(const Case& c, const std::filesystem::path& direct
   io::clear_results_directory(directory);
 }
 
-/// Number of values of all branches of all elements.
+/// Number of values of all branches: of elements of rubber, or of the nodes of a body of small
+/// strain.
 std::size_t branch_numbers(const Setup& setup) {
-  std::size_t n = 0;
+  using dynamics::ViscousBranches;
+  const dynamics::Model& m = setup.model;
+  std::size_t n = ViscousBranches<fem::BlockCsr>::numbers(m.viscous, m.n_nodes());
+  if (m.solid) n += ViscousBranches<fem::SolidSector>::numbers(m.solid->viscous, m.n_nodes());
   for (std::size_t e = 0; e < setup.mesh.cells.size(); ++e) {
     const fem::Material& m = fem::material_of(setup.mesh, setup.materials, e);
     if (m.rubber) n += 3 * m.rubber->branches.size();
@@ -166,7 +171,7 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
   const bool general = step == dynamics::StepKind::general || step == dynamics::StepKind::wheel;
   const bool rim = model.rim.has_value(), massless = has_massless_contact(model);
   const bool of_force = general || rim || (model.stiffness_damping > 0.0 && !parts) ||
-                        (model.solid && model.solid->swept);
+                        (model.solid && (model.solid->swept || !model.solid->viscous.empty()));
   // The reference step of a wheel in three dimensions always carries it.
   const bool carries_force = of_force || (model.solid && !s.force.empty());
   const std::size_t force = carries_force ? n : 0;

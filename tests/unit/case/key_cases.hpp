@@ -109,6 +109,8 @@ end = 0.2
         "material.region=[{layers = [2], model = 'linear', youngs_modulus = 1e9, "
         "poissons_ratio = 0.3, integration = 'full'}, {layers = [3], viscosity = [[0.2, 0.01]]}]"},
         of_rubber{"material.region=[{layers = [1], viscosity = [[0.2, 0.01], [0.1, 0.1]]}]"},
+        lossy{"material.loss_factor=0.1", "material.loss_band=[1.0, 100.0]",
+              "material.region=[{layers = [1], loss_factor = 0.2}]"},
         by_bulk{"material.region=[{layers = [1], bulk_modulus = 3e7, c10 = 1e5}]"};
     return std::vector<Case>{
         read_text(base, probe),
@@ -121,6 +123,7 @@ end = 0.2
         read_text(held),
         read_text(base, rim),
         read_text(base, steady),
+        read_text(base, lossy),
         read_text(with_line(21, "", without_speed), loaded),
         read_text(without_speed, pulled),
         read_text(rubber("model = 'neo-hooke'\nshear_modulus = 1e6"), viscous),

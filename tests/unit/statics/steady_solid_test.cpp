@@ -27,8 +27,23 @@ RollingOrder order(double rate, double turn) {
   return {{std::polar(1.0, -turn), 1.0, std::polar(1.0, turn)}, rate, -30.0, 200.0, 2e-5};
 }
 
+using ViscousParts = std::vector<fem::ViscousPart<fem::SolidSector>>;
+
+/// Two parts of every other element, with different branches.
+ViscousParts viscous_parts(const test::SteadyWheel& w) {
+  mesh::Mesh mesh = w.mesh;
+  mesh.region_names = {"first", "second"};
+  for (std::size_t e = 0; e < mesh.hexahedra.size(); ++e)
+    mesh.region.push_back(static_cast<int>(e % 2));
+  std::vector<fem::Material> materials(2, test::box_rubber());
+  materials[0].branches = {{0.7, 1e-2}};
+  materials[1].branches = {{0.4, 1e-3}, {0.2, 1e-1}};
+  return fem::viscous_parts<fem::SolidSector>(mesh, materials, fem::ViscousBy::material);
+}
+
 /// Z_k as a full matrix, by the definition.
-Eigen::MatrixXcd full_matrix(const test::SteadyWheel& w, const RollingOrder& o) {
+Eigen::MatrixXcd full_matrix(const test::SteadyWheel& w, const RollingOrder& o,
+                             const ViscousParts& viscous = {}) {
   const std::complex<double> i{0.0, 1.0}, elastic = 1.0 + i * (o.rate * o.stiffness_damping);
   const auto n = static_cast<Eigen::Index>(3 * w.sector.n_local());
   Eigen::MatrixXcd z = Eigen::MatrixXcd::Zero(n, n);
@@ -37,6 +52,11 @@ Eigen::MatrixXcd full_matrix(const test::SteadyWheel& w, const RollingOrder& o) 
     for (const auto& e : w.sector.row(a))
       z.block<3, 3>(row, 3 * e.column) += elastic * o.turns[static_cast<std::size_t>(e.shift + 1)] *
                                           Eigen::Map<const Eigen::Matrix3d>(e.block.data());
+    for (std::size_t p = 0; p < viscous.size(); ++p)
+      for (const auto& e : viscous[p].stiffness.row(a))
+        z.block<3, 3>(row, 3 * e.column) += o.viscous[p] *
+                                            o.turns[static_cast<std::size_t>(e.shift + 1)] *
+                                            Eigen::Map<const Eigen::Matrix3d>(e.block.data());
     const double m = w.mass[w.sector.node(a, 0)];
     for (Eigen::Index c = 0; c < 3; ++c)
       z(row + c, row + c) +=
@@ -45,6 +65,25 @@ Eigen::MatrixXcd full_matrix(const test::SteadyWheel& w, const RollingOrder& o) 
     z(row + 1, row) += 2.0 * i * o.rate * o.spin * m;
   }
   return z;
+}
+
+/// Elimination, factors and the way back, against the inverse of the full matrix.
+void expect_full_matrix(const test::SteadyWheel& w, const RollingLayers<3>& layers,
+                        const RollingOrder& o, const ViscousParts& parts) {
+  std::vector<std::complex<double>> transfers(transfer_size(layers));
+  const Eigen::MatrixXcd surface = eliminate(layers, o, std::span(transfers));
+  const Eigen::MatrixXcd inverse = full_matrix(w, o, parts).inverse();
+  const Eigen::Index n = inverse.rows(), last = surface.rows();
+  ASSERT_EQ(last, 12);  // the last rows are the tread's, in this order
+  EXPECT_LT((surface - inverse.bottomRightCorner(last, last)).norm(), 1e-12 * inverse.norm());
+  const Eigen::VectorXcd force = Eigen::VectorXcd::Random(n),
+                         u = RollingFactors<3>(layers, o).solve(layers, force);
+  EXPECT_LT((u - inverse * force).norm(), 1e-12 * u.norm());
+  Eigen::VectorXcd from_surface = Eigen::VectorXcd::Zero(n), load = from_surface;
+  load.tail(last) = force.tail(last);
+  from_surface.tail(last) = surface * load.tail(last);
+  follow(layers, std::span<const std::complex<double>>(transfers), from_surface);
+  EXPECT_LT((from_surface - inverse * load).norm(), 1e-12 * from_surface.norm());
 }
 
 RollingDrive drive() {
@@ -79,23 +118,27 @@ RollingForces difference(const RollingForces& a, const RollingForces& b, double 
 
 TEST(SteadySolidLayers, EliminateAHarmonicAsItsFullMatrixDoes) {
   const test::SteadyWheel w(small_case());
-  const RollingOrder o = order(-90.0, 0.5);
+  RollingOrder o = order(-90.0, 0.5);
   const auto layers = rolling_layers<3>(w.sector, w.harmonics.body().candidates, w.mass);
   EXPECT_EQ(layers.size(), 2U);
-  std::vector<std::complex<double>> transfers(transfer_size(layers));
-  const Eigen::MatrixXcd surface = eliminate(layers, o, std::span(transfers));
-  const Eigen::MatrixXcd inverse = full_matrix(w, o).inverse();
-  const Eigen::Index n = inverse.rows(), last = surface.rows();
-  ASSERT_EQ(last, 12);  // the last rows are the tread's, in this order
-  EXPECT_LT((surface - inverse.bottomRightCorner(last, last)).norm(), 1e-12 * inverse.norm());
-  const Eigen::VectorXcd force = Eigen::VectorXcd::Random(n),
-                         u = RollingFactors<3>(layers, o).solve(layers, force);
-  EXPECT_LT((u - inverse * force).norm(), 1e-12 * u.norm());
-  Eigen::VectorXcd from_surface = Eigen::VectorXcd::Zero(n), load = from_surface;
-  load.tail(last) = force.tail(last);
-  from_surface.tail(last) = surface * load.tail(last);
-  follow(layers, std::span<const std::complex<double>>(transfers), from_surface);
-  EXPECT_LT((from_surface - inverse * load).norm(), 1e-12 * from_surface.norm());
+  expect_full_matrix(w, layers, o, {});
+  const ViscousParts parts = viscous_parts(w);
+  for (const auto& part : parts) o.viscous.push_back(fem::branch_modulus(part.branches, o.rate));
+  const auto viscous = rolling_layers<3>(w.sector, w.harmonics.body().candidates, w.mass, parts);
+  expect_full_matrix(w, viscous, o, parts);
+  const Eigen::VectorXcd u =
+      Eigen::VectorXcd::Random(static_cast<Eigen::Index>(3 * w.sector.n_local()));
+  const RollingNorms norms = norms_of<3>(viscous, o, u);
+  RollingOrder without = o, with = o;
+  without.viscous = {0.0, 0.0};
+  for (const std::size_t p : {0U, 1U}) {
+    with.viscous = without.viscous;
+    with.viscous[p] = 1.0;
+    const std::complex<double> form =
+        u.dot((full_matrix(w, with, parts) - full_matrix(w, without, parts)) * u);
+    EXPECT_NEAR(norms.viscous[p], form.real(), 1e-12 * norms.stiffness);
+    EXPECT_GT(norms.viscous[p], 0.1 * norms.stiffness);
+  }
 }
 
 /// Three pairs with any numbers, and the same with a third component that nothing acts on.

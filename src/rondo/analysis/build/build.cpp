@@ -105,6 +105,9 @@ void make_model(const Case& c, Setup& s) {
     model.stiffness = fem::assemble_stiffness(s.mesh, s.materials);
   model.stiffness_damping = c.damping.stiffness;
   add_rubber(c, s);
+  if (!fem::has_rubber(s.materials))
+    model.viscous =
+        fem::viscous_parts<fem::BlockCsr>(s.mesh, s.materials, fem::ViscousBy::branches);
 }
 
 /// Sets what does not change the body: see body_key().
@@ -226,9 +229,9 @@ dynamics::CriticalStep find_critical_step(const Case& c, Setup& s) {
 dynamics::CriticalStep find_step_at_once(const Case& c, Setup& s) {
   if (!fem::has_branches(s.materials)) return find_critical_step(c, s);
   std::vector<fem::Material> materials = fem::instantaneous(s.materials);
-  fem::BlockCsr stiffness = fem::assemble_stiffness(s.mesh, materials);
+  fem::BlockCsr stiffness = fem::assemble_stiffness(s.mesh, materials, s.prestress);
   std::optional<fem::SectorStiffness> sector;
-  if (s.model.sector) sector = fem::assemble_sector(s.mesh, materials);
+  if (s.model.sector) sector = fem::assemble_sector(s.mesh, materials, s.prestress);
   const auto exchange = [&] {
     std::swap(s.materials, materials);
     std::swap(s.model.stiffness, stiffness);

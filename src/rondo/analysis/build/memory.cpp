@@ -15,6 +15,7 @@
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/limits/memory_limits.hpp"
+#include "rondo/fem/viscosity.hpp"
 #include "rondo/integrators/massless/ring_matrix.hpp"
 #include "rondo/output/recorder.hpp"
 
@@ -81,6 +82,22 @@ std::size_t rubber_memory(const Case& c, const mesh::Mesh& mesh) {
   return bytes;
 }
 
+/// Branches at small strain: four fields of each, and in the plane the stiffness of each kind.
+static std::size_t viscous_memory(const Case& c, const mesh::Mesh& mesh) {
+  if (has_rubber(c)) return 0;
+  std::vector<std::vector<fem::ViscousBranch>> kinds;
+  for (const fem::Material& m : materials_of(c, mesh))
+    if (const auto& own = fem::branches_of(m); !own.empty() && !std::ranges::count(kinds, own))
+      kinds.push_back(own);
+  std::size_t branches = 0;
+  for (const auto& kind : kinds) branches += kind.size();
+  constexpr std::size_t fields = 4;
+  const std::size_t components = mesh.is_solid() ? 3 : 2;
+  const std::size_t of_fields = fields * components * branches * mesh.n_nodes() * sizeof(double);
+  const std::size_t of_stiffness = stiffness_memory(mesh.n_nodes(), has_wide_rows(c, mesh)) / 2;
+  return of_fields + (mesh.is_solid() ? 0 : kinds.size() * of_stiffness);
+}
+
 /// K of one sector, and the factor of a harmonic of it for the critical step.
 static std::size_t solid_motion_memory(const Case& c, const mesh::Mesh& mesh) {
   RONDO_DEMAND(mesh.n_sectors > 0, mesh.n_sectors);
@@ -89,7 +106,7 @@ static std::size_t solid_motion_memory(const Case& c, const mesh::Mesh& mesh) {
   const auto snapshots = static_cast<std::size_t>(c.output.snapshots);
   const std::size_t of_a_sector = 3 * nodes / static_cast<std::size_t>(mesh.n_sectors);
   return mesh_memory(nodes) + nodes * numbers_of_a_node * sizeof(double) +
-         factor_memory(of_a_sector, true) +
+         factor_memory(of_a_sector, true) + viscous_memory(c, mesh) +
          std::min(snapshots, queue_length(snapshots, of_a_snapshot)) * of_a_snapshot;
 }
 
@@ -109,7 +126,7 @@ std::size_t motion_memory(const Case& c, const mesh::Mesh& mesh) {
                           (c.motion.angular_velocity.largest() != 0.0 && !has_rubber(c) &&
                            softening_is_checked(2 * nodes, of_a_sector));
   // Snapshots may wait to be written, where steps are faster than files.
-  std::size_t bytes = mesh_memory(nodes) + rubber_memory(c, mesh) +
+  std::size_t bytes = mesh_memory(nodes) + rubber_memory(c, mesh) + viscous_memory(c, mesh) +
                       std::min(snapshots, queue_length(snapshots, of_a_snapshot)) * of_a_snapshot;
   if (!sector_alone) bytes += stiffness_memory(nodes, wide_rows);
   if (factorised) bytes += factor_memory(harmonics ? of_a_sector : 2 * nodes, wide_rows);

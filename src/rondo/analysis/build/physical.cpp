@@ -15,6 +15,7 @@
 #include "rondo/analysis/build/rim.hpp"
 #include "rondo/analysis/build/rubber.hpp"
 #include "rondo/analysis/build/tyre/pressed_tyre.hpp"
+#include "rondo/analysis/build/viscosity_lines.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 
@@ -177,6 +178,11 @@ void tell_stiffness(const std::vector<fem::Material>& materials, const Tell& to)
                           e.low == e.high ? text(e.low) : text(e.low) + "; to " + text(e.high));
 }
 
+void tell_materials(const Case& c, const std::vector<fem::Material>& materials, const Tell& to) {
+  tell_stiffness(materials, to);
+  std::ranges::move(viscosity_lines(c), std::back_inserter(to.figures));
+}
+
 /// Most that the center comes down below first touch; < 0: how far it stays above [m].
 double deflection_by_motion(const Case& c, const Setup& s, const Wall& wall) {
   double deflection = -std::numeric_limits<double>::infinity();
@@ -274,7 +280,7 @@ void tell_physical_figures(const Case& c, Setup& s) {
   RONDO_DEMAND(s.velocity.size() == s.model.n_nodes(), s.velocity.size(), s.model.n_nodes());
   const Tell to{s.figures, s.warnings};
   warn_of_senses(c, s.mesh, s.materials, s.warnings);
-  tell_stiffness(s.materials, to);
+  tell_materials(c, s.materials, to);
   for (Told& told : rubber_lines(c, explicit_step(s.model))) s.figures.push_back(std::move(told));
   const std::optional<Wall> wall = is_held(c) ? wall_of(s.mesh) : std::nullopt;
   if (has_candidates(s.model))  // alone in space only spin strains: see the check of softening
@@ -293,7 +299,7 @@ void tell_physical_figures(const Case& c, CrushSetup& s) {
   const Tell to{s.figures, s.warnings};
   warn_of_units(c, s.mesh, s.materials, s.warnings);
   warn_of_senses(c, s.mesh, s.materials, s.warnings);
-  tell_stiffness(s.materials, to);
+  tell_materials(c, s.materials, to);
   for (Told& told : rubber_lines(c, 0.0)) s.figures.push_back(std::move(told));
   if (const std::optional<Wall> wall = wall_of(s.mesh))
     tell_deflection("analysis.depth", s.path.largest_depth(), *wall,
@@ -303,7 +309,7 @@ void tell_physical_figures(const Case& c, CrushSetup& s) {
 void tell_physical_figures(const Case& c, const RoundBody& body, PhysicalFigures& told) {
   const Tell to{told.figures, told.warnings};
   warn_of_senses(c, body.mesh, body.materials, told.warnings);
-  tell_stiffness(body.materials, to);
+  tell_materials(c, body.materials, to);
   const std::optional<Wall> wall = wall_of(body.mesh);
   const double radius = wall ? wall->radius : extent_of(body.mesh);
   const bool finds_speed = c.analysis.traction || c.analysis.torque;
@@ -326,7 +332,7 @@ void tell_physical_figures(const Case& c, const RoundBody& body, const CrushPath
   constexpr const char* key = "analysis.depth";
   const Tell to{told.figures, told.warnings};
   warn_of_senses(c, body.mesh, body.materials, told.warnings);
-  tell_stiffness(body.materials, to);
+  tell_materials(c, body.materials, to);
   const std::optional<Wall> wall = wall_of(body.mesh);
   if (!wall) return;
   if (path.has_load())

@@ -8,6 +8,7 @@
 
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/fem/viscosity.hpp"
 #include "rondo/model/hyperelastic.hpp"
 
 namespace rondo::study {
@@ -16,7 +17,7 @@ namespace {
 /// A step resolves a branch that relaxes in so many of them.
 constexpr double resolved_steps = 4.0;
 
-/// A table that describes a rubber.
+/// A table that describes a material.
 struct Described {
   std::string table;  ///< "material", "material.region[1]"
   std::string name;   ///< name of the part; empty: [material]
@@ -24,17 +25,23 @@ struct Described {
   const fem::Material& material;
 };
 
-std::vector<Described> rubbers_of(const Case& c) {
+std::vector<Described> materials_in(const Case& c) {
   std::vector<Described> found;
-  if (c.law.is_rubber()) found.push_back({"material", "", c.law, c.material});
+  found.push_back({"material", "", c.law, c.material});
   for (std::size_t k = 0; k < c.regions.size(); ++k) {
     const MaterialRegion& region = c.regions[k];
-    if (!region.law.is_rubber()) continue;
     const std::string name = !is_generated(c)
                                  ? region.surface
                                  : fmt::format("layers {}", fmt::join(region.layers, ", "));
     found.push_back({item_of("material.region", k), name, region.law, region.material});
   }
+  return found;
+}
+
+std::vector<Described> rubbers_of(const Case& c) {
+  std::vector<Described> found;
+  for (const Described& d : materials_in(c))
+    if (d.law.is_rubber()) found.push_back(d);
   RONDO_ASSERT(
       std::ranges::all_of(found, [](const Described& d) { return d.material.rubber.has_value(); }),
       found.size());
@@ -80,11 +87,13 @@ bool has_triangles_of_rubber(const Setup& s) {
 
 /// Its branches are those of [material], which come first.
 bool inherits_branches(const Case& c, const Described& d) {
-  return !d.name.empty() && d.law.model == c.law.model && d.law.viscosity == c.law.viscosity;
+  return !d.name.empty() && d.law.model == c.law.model && d.law.viscosity == c.law.viscosity &&
+         d.law.loss_factor == c.law.loss_factor;
 }
 
 /// The key of a branch's time in the case.
 std::string time_key(const Described& d, std::size_t branch) {
+  if (d.law.loss_factor > 0.0) return "material.loss_band";
   const bool listed = d.name.empty();
   return listed ? item_of("material.viscosity", branch) + ".time" : d.table + ".viscosity";
 }
@@ -130,10 +139,11 @@ void add_rubber(const Case& c, Setup& s) {
 void check_branches(const Case& c, Setup& s) {
   const double step = explicit_step(s.model);
   RONDO_DEMAND(step > 0.0, step);
-  for (const Described& d : rubbers_of(c)) {
+  for (const Described& d : materials_in(c)) {
     if (inherits_branches(c, d)) continue;
-    for (std::size_t b = 0; b < d.material.rubber->branches.size(); ++b) {
-      const double time = d.material.rubber->branches[b].time;
+    const std::vector<fem::ViscousBranch>& branches = fem::branches_of(d.material);
+    for (std::size_t b = 0; b < branches.size(); ++b) {
+      const double time = branches[b].time;
       if (time >= resolved_steps * step) continue;
       const std::string found =
           fmt::format("a branch that relaxes in {:.4g} s, {:.3g} of the step of {:.4g} s", time,
@@ -153,6 +163,7 @@ std::vector<Told> rubber_lines(const Case& c, double step) {
   std::vector<Told> lines;
   for (const Described& d : rubbers_of(c)) {
     lines.push_back(law_line(d));
+    if (d.law.loss_factor > 0.0) continue;  // viscosity_lines() has them
     for (const fem::ViscousBranch& branch : d.material.rubber->branches)
       lines.push_back(branch_line(d, branch, step));
   }

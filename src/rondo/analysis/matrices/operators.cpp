@@ -29,6 +29,7 @@ struct NotConstant {
 constexpr std::array not_constant{
     NotConstant{dynamics::has::rubber,
                 "is rubber at finite strain: its stiffness changes with the displacement"},
+    NotConstant{dynamics::has::viscosity, "relaxes: its stiffness changes with the frequency"},
     NotConstant{dynamics::has::own_material, "is no linear one: it has no constant stiffness"},
     NotConstant{dynamics::has::free_bodies,
                 "leaves bodies free: the frame of their stiffness turns with each of them"},

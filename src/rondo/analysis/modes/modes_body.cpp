@@ -11,6 +11,7 @@
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/plausible/number_range.hpp"
 #include "rondo/analysis/build/tyre/wheel_at_rest.hpp"
+#include "rondo/case/rubber/material.hpp"
 #include "rondo/modal/modes.hpp"
 
 namespace rondo::study {
@@ -55,6 +56,11 @@ ModesBody make_modes_body(const Case& c) {
   b.mesh = build_mesh(c, &b.warnings);
   b.materials = materials_of(c, b.mesh);
   warn_of_units(c, b.mesh, b.materials, b.warnings);
+  if (has_viscosity(c) && !has_rubber(c))
+    b.warnings.emplace_back(
+        "modes are those of slow strains: viscous branches would raise the frequencies and damp "
+        "the "
+        "modes, and `rondo check` tells by how much the stiffness is higher at a frequency");
   b.largest_frequency = std::sqrt(is_solid(c) ? complete_solid(c, b) : complete_plane(c, b));
   if (!(b.largest_frequency > 0.0) || !std::isfinite(b.largest_frequency))
     throw case_error(c, furthest_key(c),

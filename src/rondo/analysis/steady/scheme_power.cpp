@@ -14,7 +14,7 @@ std::string found(const Case& c, const statics::RollingPower& p) {
       "the discretisation {} a power of {:.4g} {}, {:.3g} % of the largest of drive ({:.4g}), "
       "damping ({:.4g}) and friction ({:.4g} {})",
       p.scheme > 0.0 ? "makes" : "takes", std::abs(p.scheme), unit, 100.0 * p.scheme_share, p.drive,
-      p.mass + p.stiffness, p.friction, unit);
+      p.damping(), p.friction, unit);
 }
 
 /// What resolves the slip of the nodes better.

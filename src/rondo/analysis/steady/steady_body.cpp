@@ -125,10 +125,14 @@ void SteadyBody<D>::assemble(const Case& c) {
     sector = std::move(rest.sector);
     inflation = std::move(rest.inflation);
     swept = std::move(rest.swept);
+    viscous = std::move(rest.viscous);
   }
   dofs = D * fem::free_nodes(mesh).size();
   demand_range(c, *this);
-  if constexpr (D == 2) sector = fem::assemble_sector(mesh, materials);
+  if constexpr (D == 2) {
+    sector = fem::assemble_sector(mesh, materials);
+    viscous = fem::viscous_parts<fem::SectorStiffness>(mesh, materials, fem::ViscousBy::material);
+  }
   sector_dofs = D * sector.n_local();
   if constexpr (D == 2) add_stress_stiffening(c, *this);
   radius = radius_of(c, mesh);
@@ -150,6 +154,7 @@ void SteadyBody<D>::find_harmonics(const Case& c, int threads) {
                                             .rest_spin = c.inflation ? spin_at_rest(c) : 0.0,
                                             .mass_damping = c.damping.mass,
                                             .stiffness_damping = c.damping.stiffness,
+                                            .viscous = viscous,
                                             .samples = c.analysis.samples_per_sector,
                                             .massless = c.analysis.massless_contact,
                                             .inertia = inertia_of(c),

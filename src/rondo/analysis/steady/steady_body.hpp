@@ -27,6 +27,7 @@ class SteadyBody final : public RolledBody {
                                                     statics::SlipDifference slip) const;
 
   fem::SectorBlocks<D> sector;
+  std::vector<fem::ViscousPart<fem::SectorBlocks<D>>> viscous;  ///< of materials with branches
   std::optional<dynamics::SweptPart> swept;  ///< what is not linear about the state, in space
   double radius = 0.0;                       ///< outer, undeformed [m]
   std::optional<statics::RollingHarmonics<D>> harmonics;

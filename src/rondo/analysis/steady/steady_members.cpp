@@ -91,6 +91,8 @@ constexpr JsonMember<statics::RollingPower> power_rows[] = {
      [](const statics::RollingPower& p) -> Json { return p.mass; }},
     {"stiffness", "number", "W/m", "Taken by stiffness damping",
      [](const statics::RollingPower& p) -> Json { return p.stiffness; }},
+    {"viscosity", "number", "W/m", "Taken by the viscous branches of the material",
+     [](const statics::RollingPower& p) -> Json { return p.viscosity; }},
     {"friction", "number", "W/m", "Taken by friction",
      [](const statics::RollingPower& p) -> Json { return p.friction; }},
     {"weight", "number", "W/m", "Given by the weight along the deformation",
@@ -99,9 +101,27 @@ constexpr JsonMember<statics::RollingPower> power_rows[] = {
      "Difference between the slip of the law and the velocity of the field",
      [](const statics::RollingPower& p) -> Json { return p.scheme; }},
     {"residual", "number", "",
-     "drive + mass + stiffness + friction − weight − scheme, over the largest of them",
+     "drive + mass + stiffness + viscosity + friction − weight − scheme, over the largest of them",
      [](const statics::RollingPower& p) -> Json { return p.residual; }},
 };
+
+/// What a viscous part of the body takes.
+struct PartPower {
+  const std::string& name;
+  double power;
+};
+constexpr JsonMember<PartPower> part_rows[] = {
+    {"region", "string", "", "Name of the region; \"material\": what is in none",
+     [](const PartPower& p) -> Json { return p.name; }},
+    {"power", "number", "W/m", "Taken by its branches",
+     [](const PartPower& p) -> Json { return p.power; }},
+};
+
+Json part_powers(const SteadyFigures& k) {
+  std::vector<PartPower> all;
+  for (std::size_t p = 0; p < k.parts.size(); ++p) all.push_back({k.parts[p], k.power.by_part[p]});
+  return objects_of(part_rows, all);
+}
 
 /// Differences, and whether they are those of a wheel in three dimensions.
 struct OfSlip {
@@ -180,9 +200,12 @@ constexpr JsonMember<SteadyFigures> figures_rows[] = {
     {"power", "object", "", "Balance of powers",
      [](const SteadyFigures& k) { return object_of(power_rows, k.power); },
      [] { return texts_of(power_rows); }},
+    {"viscous_power", "array", "", "What of `viscosity` of `power` each region takes",
+     [](const SteadyFigures& k) { return k.parts.empty() ? absent() : part_powers(k); },
+     [] { return texts_of(part_rows); }},
     {"scheme_share", "number", "",
-     "|`scheme`| of `power` over the largest of `drive`, damping (`mass` + `stiffness`) and "
-     "`friction`; 0 if it is round-off",
+     "|`scheme`| of `power` over the largest of `drive`, damping (`mass` + `stiffness` + "
+     "`viscosity`) and `friction`; 0 if it is round-off",
      [](const SteadyFigures& k) -> Json { return k.power.scheme_share; }},
     {"slip_error", "object", "",
      "Values with `analysis.slip` = \"upwind\" less those with \"bdf2\": a measure of the error of "

@@ -14,6 +14,7 @@ struct SteadyFigures {
   const statics::RollingSolution& s;
   const SteadySums& mean;
   const statics::RollingPower& power;
+  const std::vector<std::string>& parts;  ///< names of the viscous parts
   const std::optional<SlipError>& slip_error;
   double height, slip_ratio, resistance;  ///< [m], [1], [N]
   std::size_t pairs;

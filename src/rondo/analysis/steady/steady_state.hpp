@@ -66,6 +66,8 @@ class SteadyState final : public RolledState {
   [[nodiscard]] std::string nothing_touches() const;
   [[nodiscard]] std::string why_it_slides() const;
   [[nodiscard]] std::string not_solved() const;
+  /// What is lost and where; empty: it does not move.
+  [[nodiscard]] std::string resistance_note() const;
   void sum_up();
   void measure_extents();
   void add(std::size_t pair, double share, SteadySums& sums) const;

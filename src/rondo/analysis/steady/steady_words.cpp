@@ -136,27 +136,46 @@ std::string SteadyState<D>::not_solved() const {
       a.load ? " or analysis.load" : "");
 }
 
+/// At a slip angle what is lost is the drag of cornering as well.
+template <int D>
+std::string SteadyState<D>::resistance_note() const {
+  if (solution_.speed == 0.0) return {};
+  const double per_speed = 1.0 / std::abs(solution_.speed);
+  return fmt::format(
+      "{} {:.6g} {}: material {:.4g}, mass damping {:.4g}, stiffness damping {:.4g}, "
+      "friction {:.4g}, scheme {:.2g}",
+      drive_.slip_angle == 0.0 ? "rolling resistance" : "power lost over speed", resistance(),
+      D == 2 ? "N/m" : "N", power_.viscosity * per_speed, power_.mass * per_speed,
+      power_.stiffness * per_speed, power_.friction * per_speed, -power_.scheme * per_speed);
+}
+
 template <int D>
 std::vector<std::string> SteadyState<D>::notes() const {
   const statics::RollingForces& f = solution_.forces;
   const std::string place = fmt::format("center {:.6g} m high at {:.6g} m/s, slip ratio {:.4g} %",
                                         height(), solution_.speed, 100.0 * slip_ratio());
-  if (D == 2)
-    return {fmt::format("traction {:.6g} N/m, load {:.6g} N/m, torque {:.6g} N, rolling "
-                        "resistance {:.6g} N/m",
-                        f.heading, f.normal, torque(), resistance()),
-            place};
-  return {fmt::format("traction {:.6g} N, load {:.6g} N, lateral force {:.6g} N, aligning moment "
-                      "{:.6g} N m, torque {:.6g} N m, rolling resistance {:.6g} N",
-                      f.heading, f.normal, f.lateral, f.aligning, torque(), resistance()),
-          fmt::format("{}, slip angle {:.4g} rad, camber {:.4g} rad", place, drive_.slip_angle,
-                      case_.motion.camber)};
+  std::vector<std::string> notes;
+  if (D == 2) {
+    notes = {fmt::format("traction {:.6g} N/m, load {:.6g} N/m, torque {:.6g} N", f.heading,
+                         f.normal, torque()),
+             place};
+  } else {
+    notes = {fmt::format("traction {:.6g} N, load {:.6g} N, lateral force {:.6g} N, aligning "
+                         "moment {:.6g} N m, torque {:.6g} N m",
+                         f.heading, f.normal, f.lateral, f.aligning, torque()),
+             fmt::format("{}, slip angle {:.4g} rad, camber {:.4g} rad", place, drive_.slip_angle,
+                         case_.motion.camber)};
+  }
+  if (std::string lost = resistance_note(); !lost.empty()) notes.push_back(std::move(lost));
+  return notes;
 }
 
 template <int D>
 void SteadyState<D>::describe(Json& json) const {
-  add_steady({case_, solution_, mean_, power_, slip_error_, height(), slip_ratio(), resistance(),
-              window_.pairs().size(), D == 3, finite_ ? &finite_->effort : nullptr},
+  std::vector<std::string> parts;
+  for (const auto& part : body_.viscous) parts.push_back(part.name);
+  add_steady({case_, solution_, mean_, power_, parts, slip_error_, height(), slip_ratio(),
+              resistance(), window_.pairs().size(), D == 3, finite_ ? &finite_->effort : nullptr},
              json);
 }
 
@@ -165,6 +184,7 @@ template void SteadyState<2>::append_row(int, const Snapshot&, std::vector<doubl
 template std::string SteadyState<2>::nothing_touches() const;
 template std::string SteadyState<2>::why_it_slides() const;
 template std::string SteadyState<2>::not_solved() const;
+template std::string SteadyState<2>::resistance_note() const;
 template std::vector<std::string> SteadyState<2>::notes() const;
 template void SteadyState<2>::describe(Json&) const;
 template void SteadyBody<3>::add_columns(RecordPlan&) const;
@@ -172,6 +192,7 @@ template void SteadyState<3>::append_row(int, const Snapshot&, std::vector<doubl
 template std::string SteadyState<3>::nothing_touches() const;
 template std::string SteadyState<3>::why_it_slides() const;
 template std::string SteadyState<3>::not_solved() const;
+template std::string SteadyState<3>::resistance_note() const;
 template std::vector<std::string> SteadyState<3>::notes() const;
 template void SteadyState<3>::describe(Json&) const;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "rondo/case/rubber/material.hpp"
 #include "rondo/core/contract.hpp"
 
 namespace rondo::study {
@@ -66,6 +67,13 @@ constexpr std::array rows{
         [](const Case& c) { return c.inflation && c.inflation->nonlinear != TyreMotion::linear; }},
     CaseFeature{has::nonlinear_ogden, "inflation.nonlinear", "inflation.nonlinear = \"cords\"",
                 has_nonlinear_ogden},
+    CaseFeature{has::viscosity, "material.viscosity[0]", "no viscosity; damping.stiffness",
+                [](const Case& c) { return !has_rubber(c) && !c.law.viscosity.empty(); }},
+    CaseFeature{has::viscosity, "material.loss_factor", "no loss_factor; damping.stiffness",
+                [](const Case& c) { return !has_rubber(c) && c.law.loss_factor > 0.0; }},
+    CaseFeature{has::viscosity, "material.region[0]",
+                "no viscosity and no loss_factor of a region; damping.stiffness",
+                [](const Case& c) { return !has_rubber(c) && has_viscosity(c); }},
     CaseFeature{has::own_material, "material.model", "material.model = \"linear\"",
                 [](const Case&) { return false; }},
     CaseFeature{has::implicit, "solver.implicit[0]", "no [[solver.implicit]]",

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "rondo/fem/viscosity.hpp"
+
 namespace rondo::study {
 namespace {
 
@@ -25,7 +27,22 @@ fem::Rubber law_of(const MaterialLaw& law) {
   return r;
 }
 
+std::vector<fem::ViscousBranch> branches_of(const MaterialLaw& law) {
+  if (law.loss_factor > 0.0)
+    return fem::branches_of(law.loss_factor, {law.loss_band.x, law.loss_band.y});
+  std::vector<fem::ViscousBranch> branches;
+  for (const auto& [modulus, time] : law.viscosity) branches.push_back({modulus, time});
+  return branches;
+}
+
 }  // namespace
+
+bool has_viscosity(const Case& c) noexcept {
+  const auto has = [](const MaterialLaw& law) {
+    return law.loss_factor > 0.0 || !law.viscosity.empty();
+  };
+  return has(c.law) || std::ranges::any_of(c.regions, has, &MaterialRegion::law);
+}
 
 bool has_rubber_law(const Case& c) noexcept {
   return c.law.is_rubber() || std::ranges::any_of(c.regions, [](const MaterialRegion& region) {
@@ -39,9 +56,13 @@ double shear_modulus_of(const MaterialLaw& law) noexcept {
 
 void fill_material(const MaterialLaw& law, fem::Material& m) {
   m.rubber.reset();
+  m.branches.clear();
   m.integration =
       law.integration == Quadrature::full ? fem::Integration::full : fem::Integration::b_bar;
-  if (!law.is_rubber()) return;
+  if (!law.is_rubber()) {
+    m.branches = branches_of(law);
+    return;
+  }
   fem::Rubber r = law_of(law);
   const double mu = r.shear_modulus();
   if (law.bulk_modulus) {
@@ -51,7 +72,7 @@ void fill_material(const MaterialLaw& law, fem::Material& m) {
     r.bulk_modulus = 2.0 * mu * (1.0 + m.poissons_ratio) / (3.0 * (1.0 - 2.0 * m.poissons_ratio));
   }
   m.youngs_modulus = 2.0 * mu * (1.0 + m.poissons_ratio);
-  for (const auto& [modulus, time] : law.viscosity) r.branches.push_back({modulus, time});
+  r.branches = branches_of(law);
   r.one_point = law.integration == Quadrature::one_point;
   m.rubber = std::move(r);
 }

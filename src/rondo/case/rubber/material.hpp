@@ -8,8 +8,11 @@ namespace rondo::study {
 /// μ of a rubber at small strain, without branches                                      [Pa]
 [[nodiscard]] double shear_modulus_of(const MaterialLaw& law) noexcept;
 
-/// Sets the quadrature and, for rubber, the parameters at finite strain and E and ν of its small
-/// strains, by κ if the law has it, else by the given ν.
+/// Some material has branches.
+[[nodiscard]] bool has_viscosity(const Case& c) noexcept;
+
+/// Sets the quadrature, the branches and, for rubber, the parameters at finite strain and E and ν
+/// of its small strains, by κ if the law has it, else by the given ν.
 void fill_material(const MaterialLaw& law, fem::Material& material);
 
 }  // namespace rondo::study

@@ -55,7 +55,6 @@ constexpr Parameter parameters[] = {
     {"c30", {false, false, false, true, false}},
     {"terms", {false, false, false, false, true}},
     {"bulk_modulus", {false, true, true, true, true}, false},
-    {"viscosity", {false, true, true, true, true}, false},
 };
 
 /// One of the tables that describe a material: [material] or one of its regions.
@@ -79,8 +78,6 @@ std::string models_with(const Parameter& parameter) {
 std::string instead_of(const Parameter& parameter, MaterialModel model) {
   if (parameter.leaf == "c10" && model == neo_hooke)
     return "shear_modulus = 2 c10, or another model";
-  if (parameter.leaf == "viscosity")
-    return "model = \"neo-hooke\" or another rubber; linear bodies are damped by [damping]";
   return fmt::format("{} of \"{}\", or another model", parameters_of(model), words_of(model).name);
 }
 
@@ -109,7 +106,7 @@ void check_quadrature(CaseValues& in, const Described& d) {
 bool are_good(const CaseValues& in, const Described& d) {
   for (const Parameter& parameter : parameters)
     if (!in.good({d.key(parameter.leaf)})) return false;
-  return in.good({d.key("poissons_ratio")});
+  return in.good({d.key("poissons_ratio"), d.key("viscosity"), d.key("loss_factor")});
 }
 
 void check_branches(CaseValues& in, const Described& d) {
@@ -123,6 +120,30 @@ void check_branches(CaseValues& in, const Described& d) {
                       "time above 0",
                       most_relative_modulus));
   }
+}
+
+bool is_given(const CaseValues& in, const std::string& key) {
+  return in.has(key) || in.n_items(key) > 0;
+}
+
+/// By branches or by a factor, for which the band is there.
+void check_loss(CaseValues& in, const Described& d) {
+  check_branches(in, d);
+  const std::string factor = d.key("loss_factor");
+  constexpr std::string_view band = "material.loss_band";
+  if (is_given(in, factor) && is_given(in, d.key("viscosity")))
+    in.fault(factor, "is given together with viscosity: the branches follow from the loss factor",
+             "one of loss_factor and viscosity");
+  const auto [low, high] = d.law.loss_band;
+  const bool is_band = low > 0.0 && low < high && std::isfinite(high);
+  constexpr double widest = 1e8;
+  if (d.law.loss_factor > 0.0 && in.has(band) && in.good({band}) &&
+      !(is_band && high <= widest * low))
+    in.fault(band, "is no band of frequencies",
+             fmt::format("[lowest, highest] in Hz, above 0, the highest at most {:.0e} times the "
+                         "lowest: [5.0, 500.0] for a rolling tyre",
+                         widest));
+  if (!is_band) d.law.loss_factor = 0.0;
 }
 
 bool has_exponents(CaseValues& in, const Described& d) {
@@ -186,13 +207,13 @@ void check_rubber_law(CaseValues& in, const Described& d) {
     in.fault(d.key("bulk_modulus"),
              "is given together with poissons_ratio: one follows from the other",
              "one of bulk_modulus and poissons_ratio");
-  check_branches(in, d);
   if (are_good(in, d) && has_exponents(in, d)) check_stability(in, d);
 }
 
 void check_described(CaseValues& in, const Described& d) {
   refuse_of_others(in, d);
   check_quadrature(in, d);
+  check_loss(in, d);
   if (d.law.is_rubber())
     check_rubber_law(in, d);
   else
@@ -204,13 +225,18 @@ void complete_region(CaseValues& in, const Case& c, MaterialRegion& region, cons
   MaterialLaw& law = region.law;
   const bool has_ratio = in.has(d.key("poissons_ratio")), has_bulk = in.has(d.key("bulk_modulus"));
   const bool same = law.model == c.law.model;
+  law.loss_band = c.law.loss_band;
+  const bool has_branches = in.has(d.key("viscosity")), has_factor = in.has(d.key("loss_factor"));
+  if (has_branches && !has_factor) law.loss_factor = 0.0;
+  if (has_factor && !has_branches) law.viscosity.clear();
   if (!in.has(d.key("integration")))
     law.integration = same              ? c.law.integration
                       : law.is_rubber() ? Quadrature::b_bar
                                         : Quadrature::full;
   if (!has_bulk && (has_ratio || !same)) law.bulk_modulus.reset();
   if (same) return;
-  if (!in.has(d.key("viscosity"))) law.viscosity.clear();
+  if (!has_branches) law.viscosity.clear();
+  if (!has_factor) law.loss_factor = 0.0;
   for (const Parameter& parameter : parameters)
     if (parameter.is_needed && parameter.of[static_cast<std::size_t>(law.model)] &&
         !in.has(d.key(parameter.leaf)))

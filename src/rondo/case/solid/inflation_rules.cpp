@@ -92,10 +92,6 @@ void demand_rubber(CaseValues& in, const fem::Material& m, const MaterialLaw& la
               "\"linear\" is for small strains, and [inflation] needs a law for finite ones",
               fmt::format("\"neo-hooke\" with shear_modulus = E / (2 (1 + ν)) = {:.6g}",
                           0.5 * m.youngs_modulus / (1.0 + m.poissons_ratio)));
-  if (!law.viscosity.empty())
-    in.refuse(table + ".viscosity",
-              "branches relax, and the wheel is linear about an equilibrium of relaxed rubber",
-              "no viscosity; damping.stiffness for the loss");
   if (law.integration == Quadrature::one_point)
     in.refuse(table + ".integration", "[inflation] integrates rubber at 2×2×2 points",
               "no such key");

@@ -59,7 +59,7 @@ Law law_of(const Material& m) noexcept {
   const double e = m.youngs_modulus, nu = m.poissons_ratio;
   const double shear = e / (2.0 * (1.0 + nu)), lame = e * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
   if (m.integration == Integration::full) return {lame, shear, 0.0};
-  return {-2.0 / 3.0 * shear, shear, lame + 2.0 / 3.0 * shear};
+  return {-2.0 / 3.0 * shear, shear, m.only_shear ? 0.0 : lame + 2.0 / 3.0 * shear};
 }
 
 std::array<double, 3> components(Vec3 v) noexcept {

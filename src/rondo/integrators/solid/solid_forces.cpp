@@ -15,10 +15,10 @@ SolidForces::SolidForces(const Model& model, const State& start)
   if (!model.solid->pressures.empty()) load_.resize(model.n_nodes());
   rest_ = rest_forces(model);
   const std::span<const Vec3> u = start.u;
-  if (model.solid->swept) {
-    swept_.emplace(swept_wheel(model));
-    u_ = to_vector(u);
-  }
+  if (model.solid->swept) swept_.emplace(swept_wheel(model));
+  if (!model.solid->viscous.empty())
+    branches_.emplace(model.solid->viscous, u, model.dt, model.threads);
+  if (keeps_work()) u_ = to_vector(u);
   const double stored = find(u, start.frame.angle);
   work_.add(stored);
   report_.internal_work = report_.stored_energy = stored;
@@ -27,7 +27,9 @@ SolidForces::SolidForces(const Model& model, const State& start)
 double SolidForces::find(std::span<const Vec3> u, double angle) noexcept {
   if (swept_) return swept_->find(u, angle, now_);
   fem::apply(model_.solid->sector, u, now_);
-  return 0.0;
+  double stored = 0.0;
+  if (branches_) for_free_nodes(model_, [&](std::size_t k) { stored += 0.5 * dot(u[k], now_[k]); });
+  return stored;
 }
 
 /// A_n + ½ f_n·Δu half a step before u_{n+1}; with ½ f_{n+1}·Δu more it is A_{n+1}.
@@ -42,6 +44,7 @@ double SolidForces::add_work(std::span<const Vec3> u, double stored) noexcept {
   work_.add(0.5 * (before + now));
   report_.internal_work = work_.value();
   report_.stored_energy = stored;
+  report_.dissipation_viscous = loss_.value();
   if (has_window(model_)) {
     window_work_.add(swept_->window_work());
     report_.window_work = window_work_.value();
@@ -52,7 +55,9 @@ double SolidForces::add_work(std::span<const Vec3> u, double stored) noexcept {
 
 void SolidForces::save(SavedState& saved) const {
   saved.force = now_;
-  if (swept_) saved.internal_work = {work_.sum(), work_.correction(), 0.0, 0.0};
+  if (keeps_work())
+    saved.internal_work = {work_.sum(), work_.correction(), loss_.sum(), loss_.correction()};
+  if (branches_) saved.branches = branches_->save();
   if (!has_window(model_)) return;
   saved.window = {window_work_.sum(), window_work_.correction()};
   swept_->save(saved.window);
@@ -61,11 +66,13 @@ void SolidForces::save(SavedState& saved) const {
 void SolidForces::restore(const SavedState& saved) {
   RONDO_DEMAND(saved.force.size() == model_.n_nodes(), saved.force.size(), model_.n_nodes());
   now_ = to_vector(saved.force.space());
-  if (!swept_) return;
+  if (!keeps_work()) return;
   RONDO_DEMAND(saved.internal_work.size() == 4, saved.internal_work.size());
   const Field& u = model_.rim ? saved.u_before : saved.u;
   u_ = to_vector(u.space());
   work_ = {saved.internal_work[0], saved.internal_work[1]};
+  loss_ = {saved.internal_work[2], saved.internal_work[3]};
+  if (branches_) branches_->restore(u_, saved.branches);
   if (!has_window(model_)) return;
   RONDO_DEMAND(saved.window.size() == window_numbers(model_), saved.window.size());
   window_work_ = {saved.window[0], saved.window[1]};
@@ -76,10 +83,15 @@ double SolidForces::evaluate(std::span<const Vec3> u, std::span<const Vec3> /*v*
                              const FrameStep& frame) noexcept {
   RONDO_ASSERT(u.size() == now_.size(), u.size(), now_.size());
   std::swap(now_, before_);
-  const double stored = find(u, frame.angle);
+  double stored = find(u, frame.angle);
+  if (branches_) {
+    branches_->move(u, now_);
+    stored += branches_->stored();
+    loss_.add(branches_->lost());
+  }
   if (!load_.empty()) solid_pressure_forces(model_, frame.time, load_);
   moment_ = rest_moment(rest_, u);
-  if (swept_) return add_work(u, stored);
+  if (keeps_work()) return add_work(u, stored);
   double energy = 0.0;
   for_free_nodes(model_, [&](std::size_t k) { energy += 0.5 * dot(u[k], before_[k]); });
   return energy;

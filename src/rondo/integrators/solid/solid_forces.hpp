@@ -10,6 +10,7 @@
 #include "rondo/core/vec3.hpp"
 #include "rondo/model/loaded_rim.hpp"
 #include "rondo/model/solid/swept_part.hpp"
+#include "rondo/model/viscous_branches.hpp"
 
 namespace rondo::dynamics {
 
@@ -19,7 +20,8 @@ class SolidForces {
   SolidForces(const Model& model, const State& start);
 
   /// Forces at u_{n+1}. @return strain energy of the half step before, ½ u_{n+1}ᵀ K u_n; with
-  /// nonlinear cords the work A_n + ½ f_n·(u_{n+1} - u_n) that their forces took so far      [J]
+  /// nonlinear cords or viscous branches the work A_n + ½ f_n·(u_{n+1} - u_n) that their forces
+  /// took so far [J]
   double evaluate(std::span<const Vec3> u, std::span<const Vec3> v,
                   const FrameStep& frame) noexcept;
   [[nodiscard]] Vec3 gradient(std::size_t k) const noexcept { return now_[k]; }
@@ -42,7 +44,9 @@ class SolidForces {
   void restore(const SavedState& saved);
 
  private:
-  /// Forces at u. @return the energy that is stored there, with nonlinear cords; else 0 [J]
+  [[nodiscard]] bool keeps_work() const noexcept { return swept_ || branches_; }
+  /// Forces at u, without those of branches. @return the energy that is stored there, if the work
+  /// is kept; else 0 [J]
   double find(std::span<const Vec3> u, double angle) noexcept;
   double add_work(std::span<const Vec3> u, double stored) noexcept;
 
@@ -51,10 +55,12 @@ class SolidForces {
   std::vector<Vec3> rest_;  ///< (n) forces of the state at rest on the nodes; empty: none [N]
   double moment_ = 0.0;     ///< on the rim, at u_{n+1} [N m]
   std::optional<SweptWheel> swept_;
-  // With nonlinear cords:
+  std::optional<ViscousBranches<fem::SolidSector>> branches_;
+  // With either of them:
   std::vector<Vec3> u_;         ///< (n) u_n [m]
   CompensatedSum work_;         ///< A, starting from what is stored at u_0 [J]
   CompensatedSum window_work_;  ///< W [J]
+  CompensatedSum loss_;         ///< of the branches [J]
   MaterialReport report_;
 };
 

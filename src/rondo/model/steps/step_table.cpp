@@ -31,6 +31,7 @@ constexpr std::array names{
     FeatureName{has::three_dimensions | has::nonlinear_cords, "nonlinear cords and air of a tyre"},
     FeatureName{has::three_dimensions | has::nonlinear_ogden,
                 "nonlinear rubber of a tyre by Ogden's law"},
+    FeatureName{has::viscosity, "viscous branches at small strain"},
     FeatureName{has::own_material, "rubber in triangles, or a material of your own"},
     FeatureName{has::implicit, "implicit elements"},
     FeatureName{has::massless, "contact nodes without mass"},
@@ -88,6 +89,9 @@ constexpr std::array limits{
           "with sharp corners the step does not support pressures that follow the edges of rubber"},
     Limit{has::nonlinear_ogden, 0, bit(StepKind::solid_cyclic),
           "the step has rubber of polynomial laws, not of Ogden's, whose powers are slow"},
+    Limit{has::viscosity, 0, fused | bit(StepKind::solid_cyclic) | own_hati,
+          "viscous branches at small strain have displacements of their own, which the step does "
+          "not carry"},
     Limit{has::own_material, 0, fused,
           "the forces of the material are no product with a stiffness"},
     Limit{has::implicit, 0, bodies, "the step has no implicit elements"},
@@ -170,6 +174,15 @@ constexpr std::array limits{
           "contact nodes without mass need the scheme \"symplectic\""},
     Limit{has::implicit, has::rubber, any,
           "implicit elements need a body of linear elements only, and there is rubber"},
+    Limit{has::viscosity, has::free_bodies, any,
+          "a body is free: viscous branches at small strain need the co-rotating frame of a rim"},
+    Limit{has::viscosity, has::massless, any,
+          "the positions of contact nodes without mass follow from the stiffness of slow strains "
+          "alone"},
+    Limit{has::viscosity, has::implicit, any, "implicit elements have no viscous branches"},
+    Limit{has::viscosity, has::other_scheme, any,
+          "viscous branches at small strain need the scheme \"symplectic\""},
+    Limit{has::viscosity, has::reduced, any, "a reduced wheel has no viscous branches"},
     Limit{has::implicit, has::own_material, any,
           "implicit elements need a body of linear elements only"},
     Limit{has::implicit, has::hati, any,
@@ -274,6 +287,7 @@ Features features_of(const Model& m) noexcept {
   add(m.internal_force && !m.rubber, has::own_material);
   add(m.solid && m.solid->swept, has::nonlinear_cords);
   add(m.solid && m.solid->swept && has_ogden(*m.solid->swept), has::nonlinear_ogden);
+  add(!m.viscous.empty() || (m.solid && !m.solid->viscous.empty()), has::viscosity);
   add(m.implicit.has_value(), has::implicit);
   add(has_massless_contact(m), has::massless);
   add(m.contact && m.contact->law.restitution > 0.0, has::restitution);

@@ -43,6 +43,7 @@ enum Feature : Features {
   friction_law = 1U << 21,       ///< friction that is no constant
   nonlinear_cords = 1U << 22,    ///< SolidBody::swept
   nonlinear_ogden = 1U << 23,    ///< SweptPart::rubber, by that law
+  viscosity = 1U << 24,          ///< branches of small strain: Model::viscous, SolidBody::viscous
 };
 }  // namespace has
 

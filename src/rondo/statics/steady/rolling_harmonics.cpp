@@ -38,7 +38,7 @@ RollingHarmonics<D>::RollingHarmonics(RollingBody<D> body)
   RONDO_DEMAND(body_.spin != 0.0 || body_.inertia == RollingInertia::none, body_.spin);
   RONDO_DEMAND(!body_.candidates.empty());
   const OneBlasThread one_thread;
-  layers_ = rolling_layers(body_.stiffness, body_.candidates, body_.mass);
+  layers_ = rolling_layers<D>(body_.stiffness, body_.candidates, body_.mass, body_.viscous);
   for (int m = 0; m < turn_; ++m)
     waves_.push_back(std::polar(1.0, 2.0 * std::numbers::pi * m / turn_));
   if (body_.massless) move_masses();
@@ -78,12 +78,15 @@ bool RollingHarmonics<D>::has_inertia(int k) const noexcept {
 template <int D>
 RollingOrder RollingHarmonics<D>::order(int k) const noexcept {
   const Complexes turn = waves_[static_cast<std::size_t>(k) * at(body_.samples) % waves_.size()];
-  return {{std::conj(turn), 1.0, turn},
-          2 * k == turn_ ? 0.0 : k * body_.spin,
-          body_.spin,
-          body_.mass_damping,
-          body_.stiffness_damping,
-          has_inertia(k)};
+  RollingOrder order{{std::conj(turn), 1.0, turn},
+                     2 * k == turn_ ? 0.0 : k * body_.spin,
+                     body_.spin,
+                     body_.mass_damping,
+                     body_.stiffness_damping,
+                     has_inertia(k)};
+  for (const fem::ViscousPart<fem::SectorBlocks<D>>& part : body_.viscous)
+    order.viscous.push_back(fem::branch_modulus(part.branches, order.rate));
+  return order;
 }
 
 /// One inverse real transform of the candidates' Z_k⁻¹ over the harmonics.
@@ -320,11 +323,16 @@ typename RollingHarmonics<D>::Damped RollingHarmonics<D>::damped(const Block& sp
   for (Index k = 1; k < spectrum.cols(); ++k)
     norms[at(k)] = norms_of<D>(layers_, order(static_cast<int>(k)), spectrum.col(k));
   Damped d;
+  d.by_viscosity.resize(body_.viscous.size());
   for (int k = 1; 2 * k < turn_; ++k) {
     const RollingNorms& of = norms[at(k)];
-    const double both = 2.0 * body_.stiffness.n_sectors * std::pow(k * body_.spin, 2);  // k and -k
+    const double rate = k * body_.spin, pair = 2.0 * body_.stiffness.n_sectors;  // k and -k
+    const double both = pair * std::pow(rate, 2);
     if (has_inertia(k)) d.by_mass += both * body_.mass_damping * of.mass;
     d.by_stiffness += both * body_.stiffness_damping * of.stiffness;
+    for (std::size_t p = 0; p < d.by_viscosity.size(); ++p)
+      d.by_viscosity[p] +=
+          pair * rate * fem::branch_modulus(body_.viscous[p].branches, rate).imag() * of.viscous[p];
   }
   return d;
 }

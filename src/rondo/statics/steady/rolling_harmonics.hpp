@@ -37,8 +37,10 @@ struct RollingBody {
   double rest_spin = 0.0;          ///< at which it is in equilibrium without the ground   [rad/s]
   double mass_damping = 0.0;       ///< α                                                  [1/s]
   double stiffness_damping = 0.0;  ///< β                                                  [s]
-  int samples = 1;                 ///< P >= 1 of a sector's pass: L = N P of a turn
-  bool massless = false;           ///< the candidates' mass is moved to the nodes below
+  std::span<const fem::ViscousPart<fem::SectorBlocks<D>>>
+      viscous{};          ///< with K's slow stiffness in K
+  int samples = 1;        ///< P >= 1 of a sector's pass: L = N P of a turn
+  bool massless = false;  ///< the candidates' mass is moved to the nodes below
   RollingInertia inertia = RollingInertia::all;
   std::vector<Vec> load{};  ///< (n_local) on the rows of every sector; empty: none [N]
   int threads = 1;          ///< same bits for any number
@@ -107,9 +109,11 @@ class RollingHarmonics {
   /// ψ instead
   [[nodiscard]] Eigen::MatrixXd fields(Eigen::Ref<const Block> spectrum, double chi,
                                        bool rate) const;
-  /// Power that damping takes, N Σ_k (ks)² U_kᴴ (α M, β K(k)) U_k, over the turn [W].
+  /// Power that damping takes, N Σ_k (ks)² U_kᴴ (α M, β K(k)) U_k, and each viscous part, N Σ_k ks
+  /// Im h_p U_kᴴ V_p(k) U_k, over the turn [W].
   struct Damped {
     double by_mass = 0.0, by_stiffness = 0.0;
+    std::vector<double> by_viscosity{};
   };
   [[nodiscard]] Damped damped(const Block& spectrum) const;
   /// Torque of the weight about the axle, counter-clockwise, as the deformation moves the body

@@ -32,6 +32,26 @@ std::vector<int> distances(const fem::SectorBlocks<D>& k, std::span<const int> c
   return distance;
 }
 
+/// The blocks of a layer's rows, but for those of the next layer, whose `up` has them.
+/// @param distance of each row from the candidates. @param place of each row in its layer
+template <int D>
+RollingEntries<D> entries_of(const fem::SectorBlocks<D>& k, std::span<const int> rows,
+                             std::span<const int> distance, std::span<const Index> place) {
+  RollingEntries<D> entries;
+  for (const int row : rows)
+    for (const auto& e : k.row(static_cast<std::size_t>(row))) {
+      const auto a = static_cast<std::size_t>(row), b = static_cast<std::size_t>(e.column);
+      if (distance[b] < distance[a]) continue;
+      RONDO_DEMAND(distance[b] <= distance[a] + 1, distance[a], distance[b]);
+      if (std::ranges::all_of(e.block, [](double value) { return value == 0.0; })) continue;
+      RollingEntry<D> entry{place[a], place[b],
+                            static_cast<std::size_t>(std::ptrdiff_t{e.shift} + 1),
+                            Eigen::Map<const NodeMatrix<D>>(e.block.data())};
+      (distance[b] == distance[a] ? entries.own : entries.up).push_back(entry);
+    }
+  return entries;
+}
+
 /// One harmonic, whose blocks have Size rows in each layer, or any number if it is Eigen::Dynamic.
 template <int D, int Size>
 struct Harmonic {
@@ -45,27 +65,38 @@ struct Harmonic {
   [[nodiscard]] Complexes elastic() const {
     return 1.0 + i * (order.rate * order.stiffness_damping);
   }
-  /// K(k) of some entries; in space, where they are few beside the block, with the damping.
-  [[nodiscard]] Block turned(const std::vector<RollingEntry<D>>& entries, Index rows,
-                             Index columns) const {
+  /// Without viscous parts all of K has one factor, which in the plane, where entries are many
+  /// beside the block, multiplies the block.
+  [[nodiscard]] bool is_uniform() const { return order.viscous.empty(); }
+  void add(const std::vector<RollingEntry<D>>& entries, Complexes factor, Block& z) const {
     std::array<Complexes, 3> turns = order.turns;
-    if constexpr (D == 3)
-      for (Complexes& turn : turns) turn *= elastic();
-    Block z = Block::Zero(rows, columns);
+    for (Complexes& turn : turns) turn *= factor;
     for (const RollingEntry<D>& e : entries)
       z.template block<D, D>(D * e.row, D * e.column) += turns[e.shift] * e.block;
-    return z;
   }
-  /// With the damping, in the plane too.
-  [[nodiscard]] decltype(auto) damped(const Block& block) const {
-    if constexpr (D == 3)
-      return (block);
-    else
-      return elastic() * block;
+  /// Calls with K and each viscous part of a layer, and its factor.
+  template <class Call>
+  void for_parts(const RollingLayer<D>& layer, Call&& call) const {
+    call(layer.elastic, elastic());
+    for (std::size_t p = 0; p < order.viscous.size(); ++p) call(layer.viscous[p], order.viscous[p]);
+  }
+  /// Adds all parts of the entries of a layer. @param of those of K or of a viscous part
+  /// @param conjugate the factors of the parts are conjugate ones
+  template <class Of>
+  void add_parts(const RollingLayer<D>& layer, Of&& of, bool conjugate, Block& z) const {
+    for_parts(layer, [&](const RollingEntries<D>& part, Complexes factor) {
+      add(of(part), conjugate ? std::conj(factor) : factor, z);
+    });
   }
   [[nodiscard]] Block own(const RollingLayer<D>& layer) const {
-    Block z = turned(layer.own, layer.size(), layer.size());
-    if constexpr (D == 2) z = elastic() * z;
+    Block z = Block::Zero(layer.size(), layer.size());
+    if (D == 3 || !is_uniform()) {
+      add_parts(
+          layer, [](const auto& part) -> auto& { return part.own; }, false, z);
+    } else {
+      add(layer.elastic.own, 1.0, z);
+      z = elastic() * z;
+    }
     const double rate = order.inertia ? order.rate : 0.0;
     const Complexes drag = i * (rate * order.mass_damping);
     const Complexes axial = -rate * rate + drag;
@@ -80,24 +111,39 @@ struct Harmonic {
     }
     return z;
   }
-  /// Z_(l, l-1), as turned() has it; Z_(l-1, l) is the adjoint, but for the damping.
-  [[nodiscard]] Block up(std::size_t l) const {
-    return turned(layers[l].up, layers[l].size(), layers[l - 1].size());
+  /// Z_(l, l-1), in the plane without the damping of a uniform K.
+  [[nodiscard]] Block up(std::size_t l) const { return up(l, false); }
+  [[nodiscard]] Block up(std::size_t l, bool conjugate) const {
+    Block z = Block::Zero(layers[l].size(), layers[l - 1].size());
+    if (D == 3 || !is_uniform())
+      add_parts(
+          layers[l], [](const auto& part) -> auto& { return part.up; }, conjugate, z);
+    else
+      add(layers[l].elastic.up, 1.0, z);
+    return z;
+  }
+  /// -Z_(l-1, l), the adjoint of Z_(l, l-1) but for the factors of its parts.
+  [[nodiscard]] Block minus_down(std::size_t l, const Block& up_of_l) const {
+    if (!is_uniform()) return -up(l, true).adjoint();
+    const Complexes back = D == 3 ? elastic() / std::conj(elastic()) : elastic();
+    return -back * up_of_l.adjoint();
   }
 
   /// Factors of the last layer, once those below are gone; those of the others, and T_l, are given
   /// to `take`.
   template <class Take>
   [[nodiscard]] Lu last(Take&& take) const {
-    const Complexes back = D == 3 ? elastic() / std::conj(elastic()) : elastic();
     Block here = own(layers[0]);
     for (std::size_t l = 1; l < layers.size(); ++l) {
       const Block next = up(l);
       const Lu lu(std::move(here));
-      const Block transfer = lu.solved(Block(-back * next.adjoint()));
+      const Block transfer = lu.solved(minus_down(l, next));
       take(l - 1, lu, transfer);
       here = own(layers[l]);
-      Lu::add_product(damped(next), transfer, here);
+      if (D == 3 || !is_uniform())
+        Lu::add_product(next, transfer, here);
+      else
+        Lu::add_product(elastic() * next, transfer, here);
     }
     return Lu(std::move(here));
   }
@@ -117,17 +163,23 @@ struct Harmonic {
 
   /// Takes from the forces on a layer what the displacement of the layer before needs.
   void take_above(std::size_t l, const Eigen::VectorXcd& u, Eigen::VectorXcd& force) const {
-    for (const RollingEntry<D>& e : layers[l].up)
-      force.segment<D>(D * layers[l].rows[at(e.row)]) -=
-          elastic() * order.turns[e.shift] *
-          (e.block * u.segment<D>(D * layers[l - 1].rows[at(e.column)]));
+    const auto take = [&](const RollingEntries<D>& part, Complexes factor) {
+      for (const RollingEntry<D>& e : part.up)
+        force.segment<D>(D * layers[l].rows[at(e.row)]) -=
+            factor * order.turns[e.shift] *
+            (e.block * u.segment<D>(D * layers[l - 1].rows[at(e.column)]));
+    };
+    for_parts(layers[l], take);
   }
   /// Takes from them what the displacement of the layer after needs.
   void take_below(std::size_t l, const Eigen::VectorXcd& u, Eigen::VectorXcd& force) const {
-    for (const RollingEntry<D>& e : layers[l + 1].up)
-      force.segment<D>(D * layers[l].rows[at(e.column)]) -=
-          elastic() * std::conj(order.turns[e.shift]) *
-          (e.block.transpose() * u.segment<D>(D * layers[l + 1].rows[at(e.row)]));
+    const auto take = [&](const RollingEntries<D>& part, Complexes factor) {
+      for (const RollingEntry<D>& e : part.up)
+        force.segment<D>(D * layers[l].rows[at(e.column)]) -=
+            factor * std::conj(order.turns[e.shift]) *
+            (e.block.transpose() * u.segment<D>(D * layers[l + 1].rows[at(e.row)]));
+    };
+    for_parts(layers[l + 1], take);
   }
 
   [[nodiscard]] Eigen::MatrixXcd eliminate(std::span<Complexes> transfers) const {
@@ -164,7 +216,8 @@ auto with_harmonic(const RollingLayers<D>& layers, const RollingOrder& order, Ca
 
 template <int D>
 RollingLayers<D> rolling_layers(const fem::SectorBlocks<D>& k, std::span<const int> candidates,
-                                std::span<const double> mass) {
+                                std::span<const double> mass,
+                                std::span<const fem::ViscousPart<fem::SectorBlocks<D>>> viscous) {
   const std::vector<int> distance = distances(k, candidates);
   const int deepest = *std::ranges::max_element(distance);
   RONDO_DEMAND(*std::ranges::min_element(distance) >= 0, deepest);
@@ -180,16 +233,13 @@ RollingLayers<D> rolling_layers(const fem::SectorBlocks<D>& k, std::span<const i
   for (const int row : candidates) add(row);
   for (std::size_t a = 0; a < k.n_local(); ++a)
     if (distance[a] > 0) add(static_cast<int>(a));
-  for (RollingLayer<D>& layer : layers)
-    for (const int row : layer.rows)
-      for (const auto& e : k.row(static_cast<std::size_t>(row))) {
-        const auto a = static_cast<std::size_t>(row), b = static_cast<std::size_t>(e.column);
-        if (distance[b] < distance[a]) continue;  // of the next layer, whose `up` has it
-        RollingEntry<D> entry{place[a], place[b],
-                              static_cast<std::size_t>(std::ptrdiff_t{e.shift} + 1),
-                              Eigen::Map<const NodeMatrix<D>>(e.block.data())};
-        (distance[b] == distance[a] ? layer.own : layer.up).push_back(entry);
-      }
+  for (RollingLayer<D>& layer : layers) {
+    layer.elastic = entries_of(k, layer.rows, distance, place);
+    for (const fem::ViscousPart<fem::SectorBlocks<D>>& part : viscous) {
+      RONDO_DEMAND(part.stiffness.nodes == k.nodes, part.stiffness.n_local(), k.n_local());
+      layer.viscous.push_back(entries_of(part.stiffness, layer.rows, distance, place));
+    }
+  }
   return layers;
 }
 
@@ -209,7 +259,7 @@ Eigen::MatrixXcd eliminate(const RollingLayers<D>& layers, const RollingOrder& o
 template <int D>
 void follow(const RollingLayers<D>& layers, std::span<const Complexes> transfers,
             Eigen::Ref<Eigen::VectorXcd> u) {
-  with_harmonic(layers, {}, [&](const auto& h) { h.follow(transfers, u); });
+  with_harmonic(layers, RollingOrder{}, [&](const auto& h) { h.follow(transfers, u); });
 }
 
 template <int D>
@@ -248,6 +298,7 @@ template <int D>
 RollingNorms norms_of(const RollingLayers<D>& layers, const RollingOrder& order,
                       const Eigen::Ref<const Eigen::VectorXcd>& u) {
   RollingNorms n;
+  n.viscous.resize(order.viscous.size());
   const auto form = [&](const RollingEntry<D>& e, int row, int column) {
     const Complexes *x = u.data() + D * row, *y = u.data() + D * column,
                     turn = order.turns[e.shift];
@@ -269,14 +320,19 @@ RollingNorms norms_of(const RollingLayers<D>& layers, const RollingOrder& order,
         all += form(e, layer.rows[at(e.row)], columns[at(e.column)]);
       return all;
     };
-    n.stiffness += sum(layer.own, layer.rows);
-    if (l > 0) n.stiffness += 2.0 * sum(layer.up, layers[l - 1].rows);
+    const auto add = [&](const RollingEntries<D>& part, double& to) {
+      to += sum(part.own, layer.rows);
+      if (l > 0) to += 2.0 * sum(part.up, layers[l - 1].rows);
+    };
+    add(layer.elastic, n.stiffness);
+    for (std::size_t p = 0; p < n.viscous.size(); ++p) add(layer.viscous[p], n.viscous[p]);
   }
   return n;
 }
 
 template RollingLayers<2> rolling_layers(const fem::SectorBlocks<2>&, std::span<const int>,
-                                         std::span<const double>);
+                                         std::span<const double>,
+                                         std::span<const fem::ViscousPart<fem::SectorBlocks<2>>>);
 template std::size_t transfer_size(const RollingLayers<2>&);
 template Eigen::MatrixXcd eliminate(const RollingLayers<2>&, const RollingOrder&,
                                     std::span<Complexes>);
@@ -287,7 +343,8 @@ template void follow(const RollingLayers<2>&, std::span<const Complexes>,
 template RollingNorms norms_of(const RollingLayers<2>&, const RollingOrder&,
                                const Eigen::Ref<const Eigen::VectorXcd>&);
 template RollingLayers<3> rolling_layers(const fem::SectorBlocks<3>&, std::span<const int>,
-                                         std::span<const double>);
+                                         std::span<const double>,
+                                         std::span<const fem::ViscousPart<fem::SectorBlocks<3>>>);
 template std::size_t transfer_size(const RollingLayers<3>&);
 template Eigen::MatrixXcd eliminate(const RollingLayers<3>&, const RollingOrder&,
                                     std::span<Complexes>);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/fem/viscosity.hpp"
 #include "rondo/statics/steady/complex_lu.hpp"
 #include "rondo/statics/steady/node_vector.hpp"
 
@@ -26,11 +27,19 @@ struct RollingEntry {
   NodeMatrix<D> block;    ///< [N/m]
 };
 
+/// Blocks of a stiffness in a layer and between it and the one below; of a place, shifts -1, 0, 1
+/// one after the other.
+template <int D>
+struct RollingEntries {
+  std::vector<RollingEntry<D>> own, up;
+};
+
 template <int D>
 struct RollingLayer {
-  std::vector<int> rows;                 ///< of the sector
-  std::vector<RollingEntry<D>> own, up;  ///< of a place, shifts -1, 0, 1 one after the other
-  std::vector<double> mass;              ///< of each row                                    [kg]
+  std::vector<int> rows;                   ///< of the sector
+  RollingEntries<D> elastic;               ///< of K
+  std::vector<RollingEntries<D>> viscous;  ///< of the stiffness of each viscous part
+  std::vector<double> mass;                ///< of each row                                  [kg]
 
   /// Number of its unknowns.
   [[nodiscard]] Eigen::Index size() const noexcept { return D * std::ssize(rows); }
@@ -40,13 +49,16 @@ using RollingLayers = std::vector<RollingLayer<D>>;
 
 /// From the rim outwards; the last is that of the candidates, in their order.
 /// @param candidates rows of the sector. @param mass (n) of the mesh's nodes [kg]
+/// @param viscous parts whose rows are those of K, and whose blocks are where K has blocks
 template <int D>
-[[nodiscard]] RollingLayers<D> rolling_layers(const fem::SectorBlocks<D>& stiffness,
-                                              std::span<const int> candidates,
-                                              std::span<const double> mass);
+[[nodiscard]] RollingLayers<D> rolling_layers(
+    const fem::SectorBlocks<D>& stiffness, std::span<const int> candidates,
+    std::span<const double> mass,
+    std::span<const fem::ViscousPart<fem::SectorBlocks<D>>> viscous = {});
 
-/// What one harmonic multiplies: Z_k = K(k)(1 + iksβ) + M(-(ks)² + iks(α + 2sJ) - s² P), with J and
-/// P of the plane of the wheel. Without inertia M multiplies -s² P alone.
+/// What one harmonic multiplies: Z_k = K(k)(1 + iksβ) + Σ_p h_p V_p(k)
+/// + M(-(ks)² + iks(α + 2sJ) - s² P), with J and P of the plane of the wheel, V_p the stiffness of
+/// a viscous part and h_p = g_p(iks) - 1. Without inertia M multiplies -s² P alone.
 struct RollingOrder {
   std::array<std::complex<double>, 3> turns;  ///< e^{ik 2π/N shift}
   double rate = 0.0;                          ///< ks; 0 of the highest of an even turn     [rad/s]
@@ -54,6 +66,7 @@ struct RollingOrder {
   double mass_damping = 0.0;                  ///< α                                          [1/s]
   double stiffness_damping = 0.0;             ///< β                                            [s]
   bool inertia = true;                        ///< the masses resist acceleration and drag
+  std::vector<std::complex<double>> viscous{};  ///< h_p of each viscous part
 };
 
 /// Numbers of the blocks T_l, (size of l, size of l + 1), one after the other, by which a layer
@@ -91,9 +104,10 @@ template <int D>
 void follow(const RollingLayers<D>& layers, std::span<const std::complex<double>> transfers,
             Eigen::Ref<Eigen::VectorXcd> u);
 
-/// uᴴ M u and uᴴ K(k) u.
+/// uᴴ M u, uᴴ K(k) u and, of each viscous part, uᴴ V_p(k) u.
 struct RollingNorms {
   double mass = 0.0, stiffness = 0.0;
+  std::vector<double> viscous{};
 };
 template <int D>
 [[nodiscard]] RollingNorms norms_of(const RollingLayers<D>& layers, const RollingOrder& order,

@@ -17,7 +17,7 @@ constexpr double round_off = 1e-12;
 void find_scheme_shares(double carried, RollingPower& p) noexcept {
   const double scheme = std::abs(p.scheme);
   if (!(scheme > round_off * carried)) return;
-  const double largest = std::max({std::abs(p.drive), p.mass + p.stiffness, std::abs(p.friction)});
+  const double largest = std::max({std::abs(p.drive), p.damping(), std::abs(p.friction)});
   p.scheme_share = scheme / largest;
   p.scheme_over_load = scheme / carried;
 }
@@ -50,6 +50,8 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
   RollingPower power;
   power.mass = damped.by_mass;
   power.stiffness = damped.by_stiffness;
+  power.by_part = damped.by_viscosity;
+  for (const double part : power.by_part) power.viscosity += part;
   power.weight = h.weight(spectrum, w.gravity());
   // The torque of the ground alone: the weight's part is an entry of its own.
   const double torque = s.forces.torque + power.weight / spin;
@@ -74,11 +76,11 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
   if (remainder.size() > 0)
     inner = spin / pass * h.fields(spectrum, 0.0, true).cwiseProduct(remainder).sum();
   power.scheme = of_field + power.friction - inner;
-  const double left = power.drive + power.mass + power.stiffness - power.weight - of_field + inner;
+  const double left = power.drive + power.damping() - power.weight - of_field + inner;
   const double largest =
       std::max({std::abs(ahead * s.forces.heading) + std::abs(aside * s.forces.lateral),
-                std::abs(spin * torque), power.mass, power.stiffness, std::abs(power.friction),
-                least_power_share * turned});
+                std::abs(spin * torque), power.mass, power.stiffness, power.viscosity,
+                std::abs(power.friction), least_power_share * turned});
   power.residual = largest > 0.0 ? std::abs(left) / largest : 0.0;
   find_scheme_shares(s.forces.normal * std::max(std::abs(s.speed), std::abs(spin) * s.height),
                      power);

@@ -2,15 +2,18 @@
 /// @file  Where the power of steady rolling goes (docs/theory.md, 11.4): an identity to round-off,
 /// so that it judges a solution from its whole field. In the plane it is per metre of width.
 #pragma once
+#include <vector>
+
 #include "rondo/statics/steady/rolling_contact.hpp"
 
 namespace rondo::statics {
 
-/// drive + mass + stiffness + friction - weight = scheme [W].
+/// drive + mass + stiffness + viscosity + friction - weight = scheme [W].
 struct RollingPower {
   double drive = 0.0;      ///< V·F + s T: of speed and spin against the ground's forces
   double mass = 0.0;       ///< taken by mass damping
   double stiffness = 0.0;  ///< taken by stiffness damping
+  double viscosity = 0.0;  ///< taken by the branches of the material
   double friction = 0.0;   ///< taken by friction, by the slip that the law sees
   /// Given by gravity along the deformation; minus s times its torque about the center.
   double weight = 0.0;
@@ -22,6 +25,10 @@ struct RollingPower {
   double scheme_share = 0.0;
   /// |scheme| over load times speed: the error of the coefficient of rolling resistance       [-]
   double scheme_over_load = 0.0;
+  std::vector<double> by_part{};  ///< what each viscous part has of `viscosity` [W]
+
+  /// Taken by damping and by the material.
+  [[nodiscard]] double damping() const noexcept { return mass + stiffness + viscosity; }
 };
 
 /// Without friction and damping there is no power but round-off, which is not judged by itself: at

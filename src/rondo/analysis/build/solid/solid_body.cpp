@@ -75,7 +75,7 @@ struct Stiffest {
 
 Stiffest make_solid_model(const Case& c, Setup& s) {
   Model& model = s.model;
-  WheelAtRest rest = wheel_at_rest(c, s.mesh, s.materials);
+  WheelAtRest rest = wheel_at_rest(c, s.mesh, s.materials, fem::ViscousBy::branches);
   model.scheme = c.time.scheme;
   model.reference = s.mesh.coordinates;
   model.mass = std::move(rest.mass);
@@ -95,6 +95,7 @@ Stiffest make_solid_model(const Case& c, Setup& s) {
   add_solid_pressures(c, s.mesh, body);
   add_pull(rest, body);
   body.swept = std::move(rest.swept);
+  body.viscous = std::move(rest.viscous);
   s.inflation = std::move(rest.inflation);
   return {std::move(rest.stiffest), rest.frequencies_below};
 }

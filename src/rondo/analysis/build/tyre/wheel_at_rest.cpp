@@ -66,7 +66,8 @@ std::optional<fem::SolidSector> stiffest(const Case& c, const InflatedWheel& whe
   return fem::finite::tangent_sector(mesh, taut.state(found.u, wheel.loads().sector));
 }
 
-WheelAtRest inflated(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>& materials) {
+WheelAtRest inflated(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>& materials,
+                     fem::ViscousBy by) {
   const InflatedWheel wheel(c, build_section(c, nullptr), materials);
   const statics::Inflation found = equilibrium_of(c, wheel);
   WheelAtRest rest;
@@ -74,26 +75,33 @@ WheelAtRest inflated(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>
     rest.mass.insert(rest.mass.end(), wheel.energy().mass().begin(), wheel.energy().mass().end());
   rest.sector = fem::finite::tangent_sector(mesh, found.state);
   rest.stiffest = stiffest(c, wheel, found, mesh);
-  rest.frequencies_below = row_bound(rest.stiffest ? *rest.stiffest : rest.sector, rest.mass);
   if (c.inflation->nonlinear != TyreMotion::linear)
     rest.swept = swept_part(*c.inflation, wheel, found, mesh);
   mesh::move_nodes(mesh, in_all_sectors(mesh, found.u),
                    c.section ? c.section->mesh.contact : "tread");
   rest.load = pull_of(mesh, rest, wheel.loads().sector.spin_squared);
   rest.inflation = figures_of(wheel, found);
+  rest.viscous = fem::viscous_parts<fem::SolidSector>(mesh, materials, by);
+  if (!rest.viscous.empty())
+    rest.stiffest = fem::with_branches(rest.stiffest ? *rest.stiffest : rest.sector, rest.viscous);
+  rest.frequencies_below = row_bound(rest.stiffest ? *rest.stiffest : rest.sector, rest.mass);
   for (fem::Material& m : materials) m.rubber.reset();
   return rest;
 }
 
 }  // namespace
 
-WheelAtRest wheel_at_rest(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>& materials) {
+WheelAtRest wheel_at_rest(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>& materials,
+                          fem::ViscousBy by) {
   RONDO_DEMAND(mesh.is_solid(), mesh.n_nodes());
-  if (c.inflation) return inflated(c, mesh, materials);
+  if (c.inflation) return inflated(c, mesh, materials, by);
   WheelAtRest rest;
   rest.mass = fem::solid_mass(mesh, materials);
   rest.sector = fem::assemble_solid_sector(mesh, materials);
-  rest.frequencies_below = fem::solid_eigenvalue_bound(mesh, materials);
+  const std::vector<fem::Material> at_once = fem::instantaneous(materials);
+  rest.frequencies_below = fem::solid_eigenvalue_bound(mesh, at_once);
+  if (fem::has_branches(materials)) rest.stiffest = fem::assemble_solid_sector(mesh, at_once);
+  rest.viscous = fem::viscous_parts<fem::SolidSector>(mesh, materials, by);
   return rest;
 }
 

@@ -7,6 +7,7 @@
 
 #include "rondo/analysis/build/tyre/inflated_wheel.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/fem/viscosity.hpp"
 #include "rondo/model/model.hpp"
 
 namespace rondo::study {
@@ -20,14 +21,18 @@ struct WheelAtRest {
   std::vector<Vec3> load;
   std::optional<InflationFigures> inflation;   ///< none: undeformed
   std::optional<dynamics::SweptPart> swept{};  ///< none: the motion is linear
-  /// K with all cords as stiff as in tension. It is there if the cords are nonlinear and some of
-  /// them resist compression less; `frequencies_below` is then its bound.
+  /// K of the stiffest motion, whose bound is then `frequencies_below`: with all cords as stiff as
+  /// in tension, where they are nonlinear and some of them resist compression less, and with all
+  /// viscous branches. Empty: there is neither.
   std::optional<fem::SolidSector> stiffest{};
+  std::vector<fem::ViscousPart<fem::SectorBlocks<3>>>
+      viscous{};  ///< relaxed at rest; empty: no material has branches
 };
 
 /// If the case has [inflation], this moves the mesh to its equilibrium and takes the laws of rubber
 /// out of the materials: strains are then small ones, from the equilibrium on. @throws InputError
 [[nodiscard]] WheelAtRest wheel_at_rest(const Case& c, mesh::Mesh& mesh,
-                                        std::vector<fem::Material>& materials);
+                                        std::vector<fem::Material>& materials,
+                                        fem::ViscousBy by = fem::ViscousBy::material);
 
 }  // namespace rondo::study
