@@ -15,7 +15,7 @@ set(RONDO_INCLUDED_HEADERS
     core/complex.hpp core/contract.hpp core/field.hpp core/ground_frame.hpp core/index.hpp core/sum.hpp core/vec2.hpp core/vec3.hpp
     case/analysis_kinds.hpp case/inflation_case.hpp case/inflation_figures.hpp analysis/modes/standing.hpp
     analysis/build/bodies.hpp io/h5/h5.hpp io/h5/hash.hpp
-    fem/element.hpp fem/nodal_dilatation.hpp fem/rubber.hpp
+    fem/element.hpp fem/nodal_dilatation.hpp fem/rubber.hpp fem/viscosity.hpp
     fem/finite/cord_face.hpp fem/finite/energy.hpp fem/finite/swept_forces.hpp fem/finite/swept_section.hpp
     fem/finite/swept_rubber.hpp fem/finite/take_block.hpp fem/solid/hexahedron.hpp
     fem/hyperelastic/numbers.hpp fem/hyperelastic/laws.hpp fem/hyperelastic/branch.hpp

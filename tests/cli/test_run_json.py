@@ -29,6 +29,7 @@ RUNS = {  # name: case, settings
     "steady": (SMALL, STEADY),
     "steady-load": (SMALL, ["analysis.kind=steady-rolling", "analysis.load=500", "analysis.traction=0"]),
     "steady-torque": (SMALL, [*STEADY, "analysis.torque=0"]),
+    "steady-lossy": (SMALL, [*STEADY, "material.loss_factor=0.1", "material.loss_band=[1.0, 100.0]"]),
     "steady-wheel": (SMALL, [*STEADY, *WIDE, "analysis.estimate_slip_error=true"]),
 }
 

@@ -206,7 +206,8 @@ void check_operator(CaseValues& in, const Case& c) {
 
 /// Refuses combinations that no time step supports (model/steps/step_table.hpp).
 void check_combinations(CaseValues& in, const Case& c) {
-  const dynamics::Features all = features_of(c);
+  dynamics::Features all = features_of(c);
+  if (!in.good({"material.model"})) all &= ~dynamics::Features{dynamics::has::viscosity};
   std::vector<const dynamics::Limit*> refusals;  // collected first: refusing one key affects others
   for (const dynamics::Limit& limit : dynamics::step_limits())
     if (limit.is_refusal() && limit.holds_for(all) &&

@@ -190,7 +190,7 @@ struct Change {
     value.set(value.target, value.get(value.target) == 0 ? 1 : 0);
   }
   void operator()(const ChoiceList& value) const { *value.among[1] = !*value.among[1]; }
-  void operator()(Vec2* value) const { *value = {value->x + 0.1, -0.3}; }
+  void operator()(Vec2* value) const { *value = {value->x + 0.1, value->y - 0.3}; }
   void operator()(Matrix* value) const { *value = {{{0.1, -2.0}, {1e-300, 0.7}}}; }
   void operator()(dynamics::Table* value) const {
     if (key.allowed.of_increments) {

@@ -28,6 +28,7 @@ fem::Rubber law_of(const MaterialLaw& law) {
 }
 
 std::vector<fem::ViscousBranch> branches_of(const MaterialLaw& law) {
+  if (law.loss_factor > 0.0 && !has_band(law)) return {};  // check_materials() has told
   if (law.loss_factor > 0.0)
     return fem::branches_of(law.loss_factor, {law.loss_band.x, law.loss_band.y});
   std::vector<fem::ViscousBranch> branches;
@@ -36,6 +37,11 @@ std::vector<fem::ViscousBranch> branches_of(const MaterialLaw& law) {
 }
 
 }  // namespace
+
+bool has_band(const MaterialLaw& law) noexcept {
+  const auto [low, high] = law.loss_band;
+  return low > 0.0 && low < high && high <= widest_band * low;
+}
 
 bool has_viscosity(const Case& c) noexcept {
   const auto has = [](const MaterialLaw& law) {

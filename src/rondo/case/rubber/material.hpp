@@ -8,6 +8,11 @@ namespace rondo::study {
 /// μ of a rubber at small strain, without branches                                      [Pa]
 [[nodiscard]] double shear_modulus_of(const MaterialLaw& law) noexcept;
 
+/// Largest ratio of the frequencies of a band.
+inline constexpr double widest_band = 1e8;
+/// The band of a loss factor is one.
+[[nodiscard]] bool has_band(const MaterialLaw& law) noexcept;
+
 /// Some material has branches.
 [[nodiscard]] bool has_viscosity(const Case& c) noexcept;
 

@@ -134,16 +134,11 @@ void check_loss(CaseValues& in, const Described& d) {
   if (is_given(in, factor) && is_given(in, d.key("viscosity")))
     in.fault(factor, "is given together with viscosity: the branches follow from the loss factor",
              "one of loss_factor and viscosity");
-  const auto [low, high] = d.law.loss_band;
-  const bool is_band = low > 0.0 && low < high && std::isfinite(high);
-  constexpr double widest = 1e8;
-  if (d.law.loss_factor > 0.0 && in.has(band) && in.good({band}) &&
-      !(is_band && high <= widest * low))
+  if (d.law.loss_factor > 0.0 && in.has(band) && in.good({band}) && !has_band(d.law))
     in.fault(band, "is no band of frequencies",
              fmt::format("[lowest, highest] in Hz, above 0, the highest at most {:.0e} times the "
                          "lowest: [5.0, 500.0] for a rolling tyre",
-                         widest));
-  if (!is_band) d.law.loss_factor = 0.0;
+                         widest_band));
 }
 
 bool has_exponents(CaseValues& in, const Described& d) {

@@ -34,7 +34,7 @@ void check_viscosity(CaseValues& in, const Case& c) {
   if (in.has("material.loss_band") && first_viscous(c, Viscous::by_factor).empty())
     in.fault("material.loss_band", "is the band of a loss factor, and there is none",
              "material.loss_factor, or that of a region, beside it");
-  if (!has_viscosity(c)) return;
+  if (!has_viscosity(c) || !in.good({"material.model"})) return;
   if (has_rubber(c)) {
     const std::string key = first_viscous(c, Viscous::linear);
     if (!key.empty())
