@@ -146,11 +146,14 @@ std::vector<std::string> SteadyState<D>::notes() const {
                         "resistance {:.6g} N/m",
                         f.heading, f.normal, torque(), resistance()),
             place};
-  return {fmt::format("traction {:.6g} N, load {:.6g} N, lateral force {:.6g} N, aligning moment "
-                      "{:.6g} N m, torque {:.6g} N m, rolling resistance {:.6g} N",
-                      f.heading, f.normal, f.lateral, f.aligning, torque(), resistance()),
-          fmt::format("{}, slip angle {:.4g} rad, camber {:.4g} rad", place, drive_.slip_angle,
-                      case_.motion.camber)};
+  return {
+      fmt::format("traction {:.6g} N, load {:.6g} N, lateral force {:.6g} N, aligning moment "
+                  "{:.6g} N m, torque {:.6g} N m, rolling resistance {:.6g} N",
+                  f.heading, f.normal, f.lateral, f.aligning, torque(), resistance()),
+      fmt::format("{}, slip angle {:.4g} rad, camber {:.4g} rad{}", place, drive_.slip_angle,
+                  case_.motion.camber,
+                  drive_.turn_slip != 0.0 ? fmt::format(", turn slip {:.4g} 1/m", drive_.turn_slip)
+                                          : std::string())};
 }
 
 template <int D>
