@@ -137,7 +137,8 @@ TEST(History, GoesOnFromItsPlace) {
 
 /// Means over steps at which the center is at different heights.
 TEST(History, TheMomentsAboutTheContactCentreAreThoseOfEachStep) {
-  Built b = built({"disk.width=0.1", "motion.camber=0.1"});
+  Built b = built({"disk.width=0.1", "motion.camber=0.1", "ground.profile=flat", "ground.fillet=0",
+                   "motion.height=0.4"});
   b.c.output.history_interval = 100.0;
   History history(b.c, b.setup);
   std::vector<double> row;
