@@ -73,6 +73,25 @@ inline SpinCreep creep_of(const HalfSpaces& of, double load) {
           -s.by_slip_angle.forces.aligning / (unit * std::sqrt(area))};
 }
 
+/// The same of a freely rolling wheel of equal radii, whose contact is a circle of .08 of them.
+inline SpinCreep creep_of_wheel(int around, statics::SlipDifference slip) {
+  constexpr double nu = 0.45, modulus = 5e6 / (1.0 - nu * nu);
+  constexpr double shear = 5e6 / (1.0 + nu);  // rigid ground: twice that of the body
+  const SteadyWheel wheel(crowned_case(0.3, 8, 24, around, 1.5));
+  statics::RollingWindow<3> window(wheel.harmonics, slip);
+  statics::RollingDrive d;
+  d.height = 0.298;
+  d.speed = 0.3e-3;
+  d.friction = 50.0;
+  d.traction = 0.0;
+  const statics::RollingSolution s = solved(window, d);
+  const Ellipse e = hertz(s.forces.normal, modulus, 0.3, 0.3);
+  const double area = e.rolling * e.across, unit = shear * area;
+  return {-s.slopes.by_slip_angle.forces.lateral / unit,
+          s.slopes.by_turn_slip.forces.lateral / (unit * std::sqrt(area)),
+          -s.slopes.by_slip_angle.forces.aligning / (unit * std::sqrt(area))};
+}
+
 /// CONTACT's case on so many elements.
 inline SpinForces spin_of_half_spaces(int elements) {
   const statics::RollingProblem<3> problem = half_spaces(contact_spaces(elements));

@@ -19,6 +19,17 @@ TEST(TurnSlipLong, TwoHalfSpacesBearWhatContactHas) {
   EXPECT_NEAR(found.pressure, test::of_contact.pressure, 0.001 * 1223.0);
 }
 
+TEST(TurnSlipLong, AWheelCreepsAsKalkersLinearTheory) {
+  const double c23 = test::at_poisson(0.45, 1.33, 1.47, 1.63);
+  for (const SlipDifference slip : {SlipDifference::upwind, SlipDifference::bdf2}) {
+    const test::SpinCreep found = test::creep_of_wheel(720, slip);
+    RecordProperty(slip == SlipDifference::bdf2 ? "bdf2" : "upwind",
+                   fmt::format("{:.3f} {:.3f}", found.c23, found.moment));
+    EXPECT_NEAR(found.c23, c23, 0.06 * c23);
+    EXPECT_NEAR(found.c23, found.moment, 0.02 * c23);
+  }
+}
+
 /// Of the wheel, by 30 columns over the ellipse: the rim, the curvature of the tread and a
 /// Poisson's ratio of 0.45 on rigid ground are in it.
 TEST(TurnSlipLong, AWheelBearsNearlyWhatContactHas) {
