@@ -110,6 +110,35 @@ inline SteadyWheelCase box_wheel_case(int samples = 4) {
   return c;
 }
 
+/// Two layers of three elements and 36 columns of it.
+inline SteadyWheelCase small_case(int samples = 2) {
+  SteadyWheelCase c = box_wheel_case(samples);
+  c.wheel = box_wheel(2, 3, 36);
+  return c;
+}
+
+/// A window of the wheel that leans by .05 rad. @param gravity [m/s²]
+inline statics::RollingWindow<3> cambered(const SteadyWheel& w, double gravity = 0.0) {
+  return {w.harmonics, statics::SlipDifference::bdf2, 0.05, gravity};
+}
+
+inline void expect_near(const statics::RollingForces& a, const statics::RollingForces& b,
+                        double bound) {
+  EXPECT_NEAR(a.normal, b.normal, bound);
+  EXPECT_NEAR(a.heading, b.heading, bound);
+  EXPECT_NEAR(a.lateral, b.lateral, bound);
+  EXPECT_NEAR(a.torque, b.torque, bound);
+  EXPECT_NEAR(a.aligning, b.aligning, bound);
+  EXPECT_NEAR(a.overturning, b.overturning, bound);
+}
+
+inline statics::RollingForces difference(const statics::RollingForces& a,
+                                         const statics::RollingForces& b, double by) {
+  return {(a.normal - b.normal) / by,     (a.heading - b.heading) / by,
+          (a.lateral - b.lateral) / by,   (a.torque - b.torque) / by,
+          (a.aligning - b.aligning) / by, (a.overturning - b.overturning) / by};
+}
+
 /// Radius .3 m, rolling slowly, with contacts that are small compared with it.
 inline SteadyWheelCase crowned_case(double crown, int radial, int axial, int around,
                                     double grading) {

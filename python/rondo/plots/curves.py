@@ -102,7 +102,8 @@ def _together(names: Sequence[str], unit: str) -> str:
     """What the columns in one axes are."""
     if len(names) == 1:
         return column_label(names[0])
-    if set(names) <= {"moment_aligning", "moment_overturning"}:
+    if set(names) <= {"moment_aligning", "moment_overturning", "moment_aligning_iso",
+                      "moment_overturning_iso"}:
         return "moment of the ground\non the body"
     if set(names) <= {"force_x", "force_y", "force_lateral"}:
         return "force of the ground\non the body"

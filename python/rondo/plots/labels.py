@@ -12,6 +12,8 @@ LABELS = {  # of columns, where their name does not say it
     "force_x": "horizontal force", "force_y": "vertical force",
     "force_lateral": "lateral force", "moment_aligning": "aligning moment",
     "moment_overturning": "overturning moment", "slip_angle": "slip angle",
+    "moment_aligning_iso": "aligning moment (ISO 8855)",
+    "moment_overturning_iso": "overturning moment (ISO 8855)",
     "slip_angle_degrees": "slip angle", "contact_area_m2": "contact area",
     "torque": "torque about the center", "contact_nodes": "nodes in contact",
     "sticking_nodes": "nodes that stick", "contact_length_m": "contact length",
@@ -30,6 +32,7 @@ LABELS = {  # of columns, where their name does not say it
 }
 PARAMETERS = {"analysis.load": "load", "rim.force_y": "load", "ground.friction": "friction μ",
               "motion.slip_angle": "slip angle", "motion.camber": "camber",
+              "motion.turn_slip": "turn slip",
               "motion.height": "height", "motion.speed": "speed", "motion.angular_velocity": "spin"}  # in words
 SCALED = ("N/m", "J/m", "W/m", "N·m/m", "Pa", "N", "J", "W", "N·m")  # with k and M
 CONSTANT = 1e-6  # span over size of a column that does not change

@@ -136,6 +136,7 @@ struct AnalysisCase {
   bool massless_contact = true;                ///< always the case with more than one sample
   bool accept_scheme_power = false;            ///< a large power of the discretisation is no fault
   std::optional<double> load{};  ///< F_y > 0, instead of height or depth                   [N/m]
+  double turn_slip = 0.0;        ///< φ: yaw rate of the path over the speed, > 0 to the left [1/m]
   std::optional<double> traction{}, torque{};  ///< F_x, or clockwise torque on the rim, instead of
                                                ///< the speed                             [N/m], [N]
 };

@@ -478,6 +478,12 @@ constexpr CaseKey keys[] = {
     {"motion.camber", "rad", FIELD(motion.camber), with(slanted, "in rad: 1° is 0.01745"),
      optional.if_(is_solid).of(not_in_inflation).body(never),
      "Angle by which a wheel in three dimensions leans; > 0 leans its top to the left, towards -z"},
+    {"motion.turn_slip", "1/m", FIELD(analysis.turn_slip), any,
+     optional.if_(is_solid).of(of_steady_rolling).body(never),
+     "Curvature φ of the path of a wheel in three dimensions that rolls steadily: its yaw rate "
+     "over "
+     "`speed`, one over the radius of the path; > 0 turns to the left, seen from above. The "
+     "inertia of the yaw is neglected"},
 
     {"rim.free", "-",
      [](Case& c, std::size_t /*k*/)

@@ -9,8 +9,8 @@ constexpr std::string_view load =
     "analysis.depth, and [[load.pressure]] presses on a curve";
 
 constexpr std::string_view yaw =
-    "a yaw rate is not known: its terms are small in a tyre's contact; motion.slip_angle may be a "
-    "table";
+    "in steady rolling motion.turn_slip is the yaw rate over the speed; in steps of time the wheel "
+    "does not yaw, and motion.slip_angle may be a table";
 
 // A key with the same name in the table that the user wrote takes precedence over these.
 constexpr Synonym synonyms[] = {
@@ -52,6 +52,9 @@ constexpr Synonym synonyms[] = {
     {"radius", "disk.outer_radius"},
     {"yaw", "", yaw},
     {"yaw_rate", "", yaw},
+    {"curvature", "motion.turn_slip"},
+    {"path_curvature", "motion.turn_slip"},
+    {"spin_slip", "motion.turn_slip"},
     {"steer", "motion.slip_angle"},
     {"steering_angle", "motion.slip_angle"},
     {"sideslip", "motion.slip_angle"},

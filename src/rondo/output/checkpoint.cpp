@@ -108,7 +108,7 @@ template <class Known, class Visit>
 void for_scalars(Known& k, Visit&& visit) {
   const std::string row = "since the last row of history.csv", loop = "of the loop so far, ";
   auto& [next, since, done, impulse, angular_impulse, penetration, hub, hub_angular, iterations,
-         extensions, aligning, overturning] = k.history;
+         extensions, aligning, overturning, aligning_iso, overturning_iso] = k.history;
   visit("/run/step", k.identity.step, {"s", "length of a step"});
   visit("/run/steps_done", k.state.step, {"1", "steps made"});
   visit("/run/steps", k.n_steps, {"1", "steps of the whole run"});
@@ -131,6 +131,8 @@ void for_scalars(Known& k, Visit&& visit) {
   visit("/history/extensions", extensions, {"1", "of contact in a step, most " + row});
   visit("/history/aligning", aligning, {"N*s", "of the ground about its normal, " + row});
   visit("/history/overturning", overturning, {"N*s", "of the ground about t1, " + row});
+  visit("/history/aligning_iso", aligning_iso, {"N*s", "about the contact centre, " + row});
+  visit("/history/overturning_iso", overturning_iso, {"N*s", "about the contact centre, " + row});
   for_contact(k.contact, visit);
   for_deformation(k.deformation, visit);
 }

@@ -135,6 +135,12 @@ constexpr std::array solid{
     Column<H>{"moment_overturning", "N·m/m",
               "about t1, along the heading, in the ground below the center, likewise",
               [](const H& r) { return r.moment_overturning; }},
+    Column<H>{"moment_aligning_iso", "N·m/m",
+              "`moment_aligning` about the contact centre of ISO 8855, where the line in the plane "
+              "of the wheel from its center down meets the ground",
+              [](const H& r) { return r.moments_iso.aligning; }},
+    Column<H>{"moment_overturning_iso", "N·m/m", "`moment_overturning`, likewise",
+              [](const H& r) { return r.moments_iso.overturning; }},
     Column<H>{"slip_angle", "rad", "`motion.slip_angle` at `time_s`",
               [](const H& r) { return r.slip_angle; }},
     Column<H>{"center_lateral", "m", "center, along t2", [](const H& r) { return r.center.z; }}};

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "rondo/core/column.hpp"
+#include "rondo/core/ground_frame.hpp"
 #include "rondo/core/vec3.hpp"
 #include "rondo/model/integrator.hpp"
 
@@ -29,6 +30,7 @@ struct HistoryRecord {
   // Used in three dimensions only:
   double moment_aligning = 0.0;     ///< about n                                        [N·m]
   double moment_overturning = 0.0;  ///< about t1, on the ground below the center [N·m]
+  GroundMoments moments_iso;        ///< about the contact centre of ISO 8855          [N·m]
   double slip_angle = 0.0;          ///< [rad]
 };
 

@@ -38,6 +38,7 @@ History::History(const Case& c, const Setup& setup, const HistoryPlace& place)
                 .rubber = has_internal_work(setup),
                 .window = dynamics::has_window(setup.model),
                 .hati = setup.model.subdomains.has_value()},
+      ground_(setup.model.motion.camber),
       at_(place) {
   RONDO_DEMAND(dt_ > 0.0 && std::isfinite(dt_) && interval_ >= 0.0, dt_, interval_);
   RONDO_DEMAND(place.next > 0 && place.steps >= 0 && place.done >= place.steps, place.next,
@@ -116,6 +117,10 @@ void History::observe(const dynamics::StepReport& step, const dynamics::State* s
   at_.angular_impulse += report.angular_impulse;
   at_.aligning += report.moment_aligning;
   at_.overturning += report.moment_overturning;
+  const GroundMoments iso = ground_.about_contact_centre(
+      {report.moment_aligning, report.moment_overturning}, report.impulse, step.frame.center.y);
+  at_.aligning_iso += iso.aligning;
+  at_.overturning_iso += iso.overturning;
   at_.penetration = std::max(at_.penetration, report.penetration);
   at_.iterations = std::max(at_.iterations, report.cluster_iterations);
   at_.extensions = std::max(at_.extensions, report.extensions);
@@ -155,6 +160,7 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
   r.balance = step.balance;
   r.moment_aligning = at_.aligning / span;
   r.moment_overturning = at_.overturning / span;
+  r.moments_iso = {at_.aligning_iso / span, at_.overturning_iso / span};
   r.slip_angle = step.frame.slip_angle;
   r.rim = step.rim;
   r.rim.force = at_.hub_impulse / span;

@@ -26,8 +26,10 @@ struct HistoryPlace {
   double angular_impulse = 0.0, penetration = 0.0;
   Vec2 hub_impulse{};  ///< of the reactions on a loaded rim                        [N·s/m]
   double hub_angular_impulse = 0.0;
-  int iterations = 0, extensions = 0;        ///< of contact, largest of a step since the last row
-  double aligning = 0.0, overturning = 0.0;  ///< in three dimensions, since the last row [N·m·s]
+  int iterations = 0, extensions = 0;  ///< of contact, largest of a step since the last row
+  // In three dimensions, since the last row: below the center, and about the contact centre.
+  double aligning = 0.0, overturning = 0.0;          ///< [N·m·s]
+  double aligning_iso = 0.0, overturning_iso = 0.0;  ///< [N·m·s]
 };
 
 class History {
@@ -65,6 +67,7 @@ class History {
   double dt_, interval_;
   double radius_ = 0.0;  ///< of the rolling body; 0: nothing rolls                       [m]
   HistoryFeatures features_;
+  GroundFrame ground_;                                      ///< of the camber
   std::shared_ptr<const mesh::DeformedBoundary> boundary_;  ///< null: nothing touches
   HistoryPlace at_;
 };

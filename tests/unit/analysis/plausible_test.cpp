@@ -128,6 +128,15 @@ TEST(Plausible, AnAngleInDegrees) {
   EXPECT_EQ(warned(solid, "motion.slip_angle=0.2"), "");
 }
 
+TEST(Plausible, ATurnSlipThatIsARadius) {
+  const std::vector<std::string> wheel{"analysis.kind=steady-rolling", "ground.profile=flat",
+                                       "disk.width=0.1"};
+  const std::string told = warned(wheel, "motion.turn_slip=-50");
+  EXPECT_TRUE(has(told, "motion.turn_slip: the path has a radius of 0.02 m")) << told;
+  EXPECT_TRUE(has(told, "one over it"));
+  EXPECT_EQ(warned(wheel, "motion.turn_slip=0.5"), "");
+}
+
 TEST(Plausible, ADepthThatIsNoDepth) {
   const std::string crush = "analysis={kind = 'crush', increments = 2, depth = 1e-5}";
   EXPECT_TRUE(has(warned({}, crush), "analysis.depth: the body is pressed in by 1e-05 m"));

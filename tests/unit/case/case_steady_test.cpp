@@ -78,6 +78,21 @@ TEST(CaseSteady, RefusesWhatItIsNotMadeFor) {
   expect_fault(base, "analysis.load", 0, "has no effect in a dynamic", {"analysis.load=1e5"});
 }
 
+TEST(CaseSteady, TakesATurnSlipOfAWheelAlone) {
+  const std::string wheel = "disk.width=0.1", turns = "motion.turn_slip=0.05";
+  const Case c = read_text(rolling(), {wheel, turns});
+  EXPECT_EQ(c.analysis.turn_slip, 0.05);
+  EXPECT_EQ(write_case(read_text(write_case(c))), write_case(c));
+  expect_fault(rolling(), "motion.turn_slip", 0, "the body is plane", {turns});
+  expect_fault(base, "motion.turn_slip", 0, "has no effect in a dynamic analysis", {wheel, turns});
+  expect_fault(base, "motion.turn_slip", 0, "has no effect in a crush analysis",
+               {wheel, turns, "analysis.kind=crush", "analysis.depth=0.01", "analysis.increments=2",
+                "ground.profile=flat"});
+  const auto faults = faults_of(base, {"motion.yaw_rate=0.1"});
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_NE(faults[0].message.find("motion.turn_slip"), std::string::npos) << faults[0].message;
+}
+
 TEST(CaseSteady, TakesOneSampleWithMass) {
   const Case c =
       read_text(rolling("samples_per_sector = 1\nmassless_contact = false\nslip = 'upwind'\n"),

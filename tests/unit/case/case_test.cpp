@@ -180,6 +180,9 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
   const std::string steady =
       "\n" + write_case(read_text(least + ground + "[analysis]\nkind = 'steady-rolling'\n",
                                   {"motion.angular_velocity=1"}));
+  const std::string rolling_wheel =
+      "\n" + write_case(read_text(least + ground + "[analysis]\nkind = 'steady-rolling'\n",
+                                  {"motion.angular_velocity=1", "disk.width=0.1"}));
   const std::string pressed =
       "\n" + write_case(read_text(least + ground + "[analysis]\nkind = 'crush'\ndepth = 0.1\n",
                                   {"analysis.increments=4", "analysis.solver=latin"}));
@@ -198,7 +201,8 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
       "\n" + write_case(read_text(rubber("model = 'neo-hooke'\nshear_modulus = 1e6"),
                                   {"disk.width=0.1", "inflation={nonlinear = 'window'}"}));
   const auto is_for_wheels = [](std::string_view key) {
-    return key == "disk.mesh.axial" || key == "motion.slip_angle" || key == "motion.camber";
+    return key == "disk.mesh.axial" || key == "motion.slip_angle" || key == "motion.camber" ||
+           key == "motion.turn_slip";
   };
   for (const CaseKey& key : case_keys()) {
     const bool written = !key.use.required && key.use.standard.empty() &&
@@ -209,12 +213,13 @@ TEST(ReadCase, DefaultsAreThoseOfTheManual) {
     const bool is_crush = means_to(key, AnalysisKind::crush);
     const std::string& text = is_steady && is_crush
                                   ? key.path == "analysis.solver" ? direct : pressed
-                              : is_steady                          ? steady
-                              : is_for_free_bodies(key.path)       ? free
-                              : is_for_wheels(key.path)            ? wheel
-                              : key.path == "inflation.window"     ? windowed
-                              : key.path.starts_with("inflation.") ? inflated
-                                                                   : held;
+                              : is_steady && is_for_wheels(key.path) ? rolling_wheel
+                              : is_steady                            ? steady
+                              : is_for_free_bodies(key.path)         ? free
+                              : is_for_wheels(key.path)              ? wheel
+                              : key.path == "inflation.window"       ? windowed
+                              : key.path.starts_with("inflation.")   ? inflated
+                                                                     : held;
     const auto table = table_of(key.path);
     const auto begin = text.find(fmt::format("\n[{}]\n", table));
     ASSERT_NE(begin, std::string::npos) << key.path;

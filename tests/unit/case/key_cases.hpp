@@ -73,6 +73,8 @@ fine = {region = "skin"}
     const std::vector<std::string> wheel{"disk.width=2.0", "disk.crown_radius=10.0",
                                          "disk.tread.circumferential_grooves=[[0.1, 0.2]]",
                                          "motion.slip_angle=0.1"};
+    std::vector<std::string> turning = steady;
+    turning.insert(turning.end(), {"disk.width=2.0", "motion.turn_slip=0.1"});
     const std::string section = R"(schema = 1
 [section]
 file = "/folder/tyre.msh"
@@ -136,6 +138,7 @@ end = 0.2
                          "5], [-1e4, -2]]"),
                   {"material.region=[{layers = [1]}]"}),
         read_text(treaded(), wheel),
+        read_text(base, turning),
         read_text(section),
         read_text(inflated, cords),
         read_text(inflated, lifted),

@@ -111,6 +111,28 @@ TEST(GroundFrame, TurnsByTheCamber) {
   EXPECT_EQ(flat, a);
 }
 
+/// A force at a place of the ground, in the axes of the wheel; the center is at their origin.
+TEST(GroundFrame, HasTheMomentsAboutTheContactCentre) {
+  const double camber = 0.3, height = 0.28;
+  const GroundFrame ground(camber);
+  const Vec3 normal = ground.to_wheel({0.0, 1.0, 0.0}), heading{1.0, 0.0, 0.0};
+  const Vec3 push = ground.to_wheel({3.0, 5.0, -2.0}), at = ground.to_wheel({0.04, -height, 0.06});
+  const Vec3 centre{0.0, -height / std::cos(camber), 0.0};  // in the plane of the wheel
+  EXPECT_NEAR(ground.from_wheel(centre).y, -height, 1e-15);
+  const auto about = [&](Vec3 point) {
+    const Vec3 moment = cross(at - point, push);
+    return GroundMoments{dot(normal, moment), dot(heading, moment)};
+  };
+  const GroundMoments below = about(ground.to_wheel({0.0, -height, 0.0})),
+                      found = ground.about_contact_centre(below, ground.from_wheel(push), height);
+  EXPECT_NEAR(found.aligning, about(centre).aligning, 1e-15);
+  EXPECT_NEAR(found.overturning, about(centre).overturning, 1e-15);
+  EXPECT_GT(std::abs(found.overturning - below.overturning), 0.1);
+  const GroundMoments upright = GroundFrame().about_contact_centre(below, push, height);
+  EXPECT_EQ(upright.aligning, below.aligning);
+  EXPECT_EQ(upright.overturning, below.overturning);
+}
+
 TEST(CompensatedSum, KeepsWhatPlainSumsLose) {
   CompensatedSum sum;
   sum.add(1.0);

@@ -135,6 +135,31 @@ TEST(History, GoesOnFromItsPlace) {
   EXPECT_GT(all.size(), 4 * whole.columns().size());
 }
 
+/// Means over steps at which the center is at different heights.
+TEST(History, TheMomentsAboutTheContactCentreAreThoseOfEachStep) {
+  Built b = built({"disk.width=0.1", "motion.camber=0.1", "ground.profile=flat", "ground.fillet=0",
+                   "motion.height=0.4"});
+  b.c.output.history_interval = 100.0;
+  History history(b.c, b.setup);
+  std::vector<double> row;
+  double aligning = 0.0, overturning = 0.0;
+  for (long long k = 1; k <= 2; ++k) {
+    dynamics::StepReport step = step_of(b, k, static_cast<double>(k));
+    step.contact.moment_aligning = 5.0;
+    step.contact.moment_overturning = -7.0;
+    step.frame.center.y = 0.3 - 0.01 * static_cast<double>(k);
+    const double aside = step.frame.center.y * std::tan(0.1), impulse = static_cast<double>(k);
+    aligning += (5.0 - aside * impulse) / (2.0 * b.setup.model.dt);
+    overturning += (-7.0 + aside * 2.0 * impulse) / (2.0 * b.setup.model.dt);
+    history.observe(step, nullptr, row);
+    if (k == 2) history.finish(step, nullptr, row);
+  }
+  EXPECT_NEAR(value(history.columns(), row, "moment_aligning_iso"), aligning,
+              1e-12 * std::abs(aligning));
+  EXPECT_NEAR(value(history.columns(), row, "moment_overturning_iso"), overturning,
+              1e-12 * std::abs(overturning));
+}
+
 TEST(History, TheStateOfRowsWithProbesIsAskedForInTurn) {
   Built b = built({"output.probe=[{name = 'rim', position = [0.2, 0.0]}]"});
   b.c.output.history_interval = 3.5 * b.setup.model.dt;

@@ -13,15 +13,13 @@ namespace steady_solid_test {
 
 using namespace rondo;
 using namespace rondo::statics;
+using test::cambered;
+using test::difference;
+using test::expect_near;
+using test::small_case;
 using test::solved;
 
 namespace {
-
-test::SteadyWheelCase small_case(int samples = 2) {
-  test::SteadyWheelCase c = test::box_wheel_case(samples);
-  c.wheel = test::box_wheel(2, 3, 36);
-  return c;
-}
 
 RollingOrder order(double rate, double turn) {
   return {{std::polar(1.0, -turn), 1.0, std::polar(1.0, turn)}, rate, -30.0, 200.0, 2e-5};
@@ -95,25 +93,6 @@ RollingDrive drive() {
   return d;
 }
 
-RollingWindow<3> cambered(const test::SteadyWheel& w, double gravity = 0.0) {
-  return {w.harmonics, SlipDifference::bdf2, 0.05, gravity};
-}
-
-void expect_near(const RollingForces& a, const RollingForces& b, double bound) {
-  EXPECT_NEAR(a.normal, b.normal, bound);
-  EXPECT_NEAR(a.heading, b.heading, bound);
-  EXPECT_NEAR(a.lateral, b.lateral, bound);
-  EXPECT_NEAR(a.torque, b.torque, bound);
-  EXPECT_NEAR(a.aligning, b.aligning, bound);
-  EXPECT_NEAR(a.overturning, b.overturning, bound);
-}
-
-RollingForces difference(const RollingForces& a, const RollingForces& b, double by) {
-  return {(a.normal - b.normal) / by,     (a.heading - b.heading) / by,
-          (a.lateral - b.lateral) / by,   (a.torque - b.torque) / by,
-          (a.aligning - b.aligning) / by, (a.overturning - b.overturning) / by};
-}
-
 }  // namespace
 
 TEST(SteadySolidLayers, EliminateAHarmonicAsItsFullMatrixDoes) {
@@ -170,7 +149,7 @@ TEST(SteadyRollingProblem, InSpaceWithoutALateralPartIsThatOfThePlane) {
   RollingPoint q{Eigen::VectorXd::Zero(3 * n), p.height, p.speed};
   q.force(in) = p.force;
   expect_near(forces_of(space, q), forces_of(plane, p), 1e-14);
-  EXPECT_LT((gaps_and_ways(space, q, 0.0)(in) - gaps_and_ways(plane, p, 0.0)).norm(), 1e-14);
+  EXPECT_LT((gaps_and_ways(space, q, {})(in) - gaps_and_ways(plane, p, {})).norm(), 1e-14);
   const TorqueChange a = torque_change(space, q), b = torque_change(plane, p);
   EXPECT_LT((a.row(in) - b.row).norm(), 1e-14);
   EXPECT_NEAR(a.by_height, b.by_height, 1e-14);
@@ -367,11 +346,11 @@ TEST(SteadySolid, ResidualKnowsAWrongForce) {
   const RollingDrive d = drive();
   const RollingSolution s = solved(window, d);
   RollingPoint p{s.force, s.height, s.speed};
-  EXPECT_LE(rolling_residual(window.problem(), p, d.slip_angle, d.friction), 1e-10);
+  EXPECT_LE(rolling_residual(window.problem(), p, d.path(), d.friction), 1e-10);
   Eigen::Index largest = 0;
   p.force.cwiseAbs().maxCoeff(&largest);
   p.force[largest] *= 1.0 + 1e-6;
-  EXPECT_GT(rolling_residual(window.problem(), p, d.slip_angle, d.friction), 1e-8);
+  EXPECT_GT(rolling_residual(window.problem(), p, d.path(), d.friction), 1e-8);
 }
 
 }  // namespace steady_solid_test

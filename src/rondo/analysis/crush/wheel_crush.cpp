@@ -149,7 +149,8 @@ void WheelCrush::describe(Json& j) const {
 
 WheelCrushSums WheelCrush::append(int k, Recorder& recorder) {
   const WheelCrushSums sums = record_->sum_up();
-  append_row({path_, k, floor_of(case_), wheel_->state(), sums}, recorder.rows());
+  append_row({path_, k, floor_of(case_), GroundFrame(case_.motion.camber), wheel_->state(), sums},
+             recorder.rows());
   recorder.rows_added();
   return sums;
 }
@@ -240,8 +241,9 @@ Progress WheelCrush::advance(Recorder& recorder) {
   }
   increments_ = k;
   const WheelCrushSums sums = append(k, recorder);
-  record_->fill({path_, k, floor_of(case_), wheel_->state(), sums}, before,
-                recorder.next_snapshot());
+  record_->fill(
+      {path_, k, floor_of(case_), GroundFrame(case_.motion.camber), wheel_->state(), sums}, before,
+      recorder.next_snapshot());
   recorder.add_snapshot();
   return {k, n};
 }

@@ -44,6 +44,8 @@ HistoryRecord record_of(const R& r) {
   h.torque = f.torque;
   h.moment_aligning = f.aligning;
   h.moment_overturning = f.overturning;
+  h.moments_iso =
+      r.ground.about_contact_centre({f.aligning, f.overturning}, h.force, s.solution.height);
   h.nodes = r.sums.nodes;
   h.sticking = r.sums.sticking;
   h.contact_length = r.sums.area;

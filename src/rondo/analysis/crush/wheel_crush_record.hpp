@@ -23,6 +23,7 @@ struct WheelCrushRow {
   const CrushPath& path;
   int k = 0;
   double floor = 0.0;  ///< height of the ground [m]
+  GroundFrame ground;  ///< of the camber
   const statics::StandingState& state;
   const WheelCrushSums& sums;
 };

@@ -39,6 +39,8 @@ constexpr std::array wheel_columns{
     FigureColumn{"force_lateral", "N", "likewise, to the right of the heading"},
     FigureColumn{"moment_aligning", "N·m", "of the ground on the wheel about the normal"},
     FigureColumn{"moment_overturning", "N·m", "about the heading, in the ground below the center"},
+    FigureColumn{"moment_aligning_iso", "N·m", "about the contact centre of ISO 8855"},
+    FigureColumn{"moment_overturning_iso", "N·m", "likewise"},
     FigureColumn{"torque", "N·m", "about the center, at the end"},
     FigureColumn{"contact_area_m2", "m2", "at the end"},
     FigureColumn{"pressure_max_pa", "Pa", "at the end"},
@@ -58,9 +60,10 @@ std::vector<double> wheel_figures_of(const std::filesystem::path& directory,
   const std::filesystem::path file = directory / "history.csv";
   const Columns history = io::read_columns(file);
   std::vector<double> figures;
-  for (const char* name : {"depth_m", "force_x", "force_y", "force_lateral", "moment_aligning",
-                           "moment_overturning", "torque", "contact_area_m2", "pressure_max_pa",
-                           "shear_max_pa", "strain", "dissipation_friction", "center_y_m"})
+  for (const char* name :
+       {"depth_m", "force_x", "force_y", "force_lateral", "moment_aligning", "moment_overturning",
+        "moment_aligning_iso", "moment_overturning_iso", "torque", "contact_area_m2",
+        "pressure_max_pa", "shear_max_pa", "strain", "dissipation_friction", "center_y_m"})
     figures.push_back(column(history, name, file).back());
   add_figures_of_all(io::read_json(directory / "run.json"), figures);
   return figures;

@@ -57,6 +57,8 @@ constexpr std::array dynamic_solid_columns{
     FigureColumn{"moment_aligning_peak", "N·m", "the value of largest magnitude in the window"},
     FigureColumn{"moment_aligning_fluctuation", "N·m", "root mean square about the mean"},
     FigureColumn{"moment_overturning_mean", "N·m", "about t1 in the ground, mean"},
+    FigureColumn{"moment_aligning_iso_mean", "N·m", "about the contact centre of ISO 8855, mean"},
+    FigureColumn{"moment_overturning_iso_mean", "N·m", "likewise"},
     FigureColumn{"trail_m", "m",
                  "mean aligning moment over the mean lateral force; none where that is round-off"},
     FigureColumn{"contact_area_mean_m2", "m2", "mean over the window"},
@@ -120,7 +122,8 @@ std::vector<double> solid_figures_of(const std::filesystem::path& directory, con
   const bool pulls = std::abs(lateral) > round_off * std::abs(mean(rows.of("force_y")));
   const Intervals area = rows.of("contact_area_m2");
   figures.insert(figures.end(),
-                 {mean(rows.of("moment_overturning")),
+                 {mean(rows.of("moment_overturning")), mean(rows.of("moment_aligning_iso")),
+                  mean(rows.of("moment_overturning_iso")),
                   pulls ? aligning / lateral : std::numeric_limits<double>::quiet_NaN(), mean(area),
                   peak(area), mean(rows.of("slip_angle"))});
   add_motion(rows, directory, figures);

@@ -43,6 +43,8 @@ constexpr std::array steady_solid_columns{
     FigureColumn{"force_lateral", "N", "likewise, to the right of the heading"},
     FigureColumn{"moment_aligning", "N·m", "of the ground on the wheel about the normal"},
     FigureColumn{"moment_overturning", "N·m", "about the heading, in the ground below the center"},
+    FigureColumn{"moment_aligning_iso", "N·m", "about the contact centre of ISO 8855"},
+    FigureColumn{"moment_overturning_iso", "N·m", "likewise"},
     FigureColumn{"torque", "N·m", "on the rim, clockwise: > 0 drives"},
     FigureColumn{"height_m", "m", "of the center above y = 0, along the normal"},
     FigureColumn{"speed", "m/s", "of the center"},
@@ -83,7 +85,9 @@ std::vector<double> steady_figures_of(const Json& run, bool solid) {
     for (const char* key : keys) figures.push_back(number(steady, key));
   };
   add({"force_x", "force_y"});
-  if (solid) add({"force_lateral", "moment_aligning", "moment_overturning"});
+  if (solid)
+    add({"force_lateral", "moment_aligning", "moment_overturning", "moment_aligning_iso",
+         "moment_overturning_iso"});
   add({"torque", "height", "speed", "slip_ratio", "rolling_resistance"});
   if (solid) {
     const Json slopes = steady.value("slopes", Json::object());

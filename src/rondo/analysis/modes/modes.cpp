@@ -85,6 +85,13 @@ void check_standing(const Case& c, const ModesRequest& request, const std::vecto
                         "--spin 0, or neither --spin nor --spins");
 }
 
+void check_path(const Case& c) {
+  if (c.analysis.turn_slip != 0.0)
+    throw case_error(c, "motion.turn_slip",
+                     "modes are of a wheel whose axle stays where it is, without a path that turns",
+                     "0; or `rondo run`, which finds the steady state of rolling along the path");
+}
+
 void check_spins(const Case& c, const ModesBody& b, const std::string& option,
                  const std::vector<double>& spins) {
   const std::size_t sector_dofs =
@@ -168,6 +175,7 @@ class ModesAnalysis final : public Analysis {
         body_(make_modes_body(c)),
         spins_(chosen_spins(c, body_, request)),
         sweep_(sweep_spins(request)) {
+    check_path(c);
     check_standing(c, request, spins_);
     check_spins(c, body_, request.spins.empty() ? "motion.angular_velocity" : "--spin", spins_);
     check_spins(c, body_, "--spins", sweep_);

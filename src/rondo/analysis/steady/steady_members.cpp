@@ -5,6 +5,7 @@
 
 #include "rondo/analysis/base/shared_members.hpp"
 #include "rondo/analysis/steady/steady.hpp"
+#include "rondo/core/ground_frame.hpp"
 
 namespace rondo::study {
 namespace {
@@ -17,6 +18,7 @@ constexpr JsonMember<double> harmonics_rows[] = {
 /// Forces, height and speed, or their derivatives.
 struct Sloped {
   const statics::RollingForces& f;
+  GroundMoments iso;
   double height, speed;
   bool solid;
 };
@@ -36,14 +38,34 @@ constexpr JsonMember<Sloped> slope_rows[] = {
      [](const Sloped& s) { return of_solid(s, s.f.aligning); }},
     {"moment_overturning", "number", "", "Derivative of `moment_overturning`, of a 3D wheel",
      [](const Sloped& s) { return of_solid(s, s.f.overturning); }},
+    {"moment_aligning_iso", "number", "", "Derivative of `moment_aligning_iso`, of a 3D wheel",
+     [](const Sloped& s) { return of_solid(s, s.iso.aligning); }},
+    {"moment_overturning_iso", "number", "",
+     "Derivative of `moment_overturning_iso`, of a 3D wheel",
+     [](const Sloped& s) { return of_solid(s, s.iso.overturning); }},
     {"height", "number", "", "Derivative of `height`",
      [](const Sloped& s) -> Json { return s.height; }},
     {"speed", "number", "", "Derivative of `speed`",
      [](const Sloped& s) -> Json { return s.speed; }},
 };
 
+GroundMoments iso_of(const SteadyFigures& k, const statics::RollingForces& f, double height) {
+  return GroundFrame(k.c.motion.camber)
+      .about_contact_centre({f.aligning, f.overturning}, {f.heading, f.normal, f.lateral}, height);
+}
+
+/// The height matters to the moments about the contact centre beside the forces.
+GroundMoments iso_slope_of(const SteadyFigures& k, const statics::RollingSlope& slope) {
+  const statics::RollingForces& f = k.s.forces;
+  const GroundMoments by_forces = iso_of(k, slope.forces, k.s.height),
+                      by_height =
+                          iso_of(k, {.normal = f.normal, .heading = f.heading}, slope.height);
+  return {by_forces.aligning + by_height.aligning, by_forces.overturning + by_height.overturning};
+}
+
 Json slope_of(const SteadyFigures& k, const statics::RollingSlope& slope) {
-  return object_of(slope_rows, {slope.forces, slope.height, slope.speed, k.solid});
+  return object_of(slope_rows,
+                   {slope.forces, iso_slope_of(k, slope), slope.height, slope.speed, k.solid});
 }
 /// No force depends on how fast the wheel turns.
 bool has_no_rate(const Case& c) noexcept {
@@ -81,11 +103,16 @@ constexpr JsonMember<SteadyFigures> slopes_rows[] = {
      [](const SteadyFigures& k) {
        return k.solid ? slope_of(k, k.s.slopes.by_slip_angle) : absent();
      }},
+    {"by_turn_slip", "object", "", "By the turn slip, of a 3D wheel",
+     [](const SteadyFigures& k) {
+       return k.solid ? slope_of(k, k.s.slopes.by_turn_slip) : absent();
+     }},
 };
 
 constexpr JsonMember<statics::RollingPower> power_rows[] = {
     {"drive", "number", "W/m",
-     "Given by speed and spin against the forces of the ground: V F_x + s T",
+     "Given by speed, spin and yaw against the forces of the ground: V F_x + s T, of a 3D wheel "
+     "V·F + s T + φ V M_n",
      [](const statics::RollingPower& p) -> Json { return p.drive; }},
     {"mass", "number", "W/m", "Taken by mass damping",
      [](const statics::RollingPower& p) -> Json { return p.mass; }},
@@ -161,6 +188,16 @@ constexpr JsonMember<SteadyFigures> figures_rows[] = {
     {"moment_overturning", "number", "N·m/m",
      "Moment of the ground on a 3D wheel about the heading, in the ground below the center",
      [](const SteadyFigures& k) { return solid_only(k, k.s.forces.overturning); }},
+    {"moment_aligning_iso", "number", "N·m/m",
+     "`moment_aligning` about the contact centre of ISO 8855, where the line in the plane of the "
+     "wheel from its center down meets the ground",
+     [](const SteadyFigures& k) {
+       return solid_only(k, iso_of(k, k.s.forces, k.s.height).aligning);
+     }},
+    {"moment_overturning_iso", "number", "N·m/m", "`moment_overturning`, likewise",
+     [](const SteadyFigures& k) {
+       return solid_only(k, iso_of(k, k.s.forces, k.s.height).overturning);
+     }},
     {"height", "number", "m", "Height of the center, given or found",
      [](const SteadyFigures& k) -> Json { return k.height; }},
     {"speed", "number", "m/s", "Speed of the center, given or found",
@@ -171,10 +208,12 @@ constexpr JsonMember<SteadyFigures> figures_rows[] = {
      [](const SteadyFigures& k) { return solid_only(k, k.c.motion.slip_angle.at(0.0)); }},
     {"camber", "number", "rad", "Camber of a 3D wheel",
      [](const SteadyFigures& k) { return solid_only(k, k.c.motion.camber); }},
+    {"turn_slip", "number", "1/m", "Turn slip of a 3D wheel: `motion.turn_slip`",
+     [](const SteadyFigures& k) { return solid_only(k, k.c.analysis.turn_slip); }},
     {"rolling_resistance", "number", "N/m",
      "Rolling resistance: power lost over speed, (ω `torque` − V `force_x`) / |V|: −`force_x` if "
      "the torque is 0 and V "
-     "> 0; null at speed 0",
+     "> 0; of a 3D wheel (ω `torque` − V·F − φ V `moment_aligning`) / |V|; null at speed 0",
      [](const SteadyFigures& k) -> Json { return k.resistance; }},
     {"stick_length", "number", "m", "Sum of the deformed boundary lengths of the nodes that stick",
      [](const SteadyFigures& k) { return plane_only(k, k.mean.stick); }},

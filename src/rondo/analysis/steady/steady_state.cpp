@@ -11,6 +11,7 @@
 #include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/steady/steady_remainder.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/ground_frame.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
 #include "rondo/mesh/deformed_boundary.hpp"
@@ -28,6 +29,7 @@ statics::RollingDrive drive_of(const Case& c, double radius) {
   d.speed = c.motion.speed.at(0.0);
   if (a.traction || a.torque) d.speed = c.motion.angular_velocity.at(0.0) * radius;
   d.slip_angle = c.motion.slip_angle.at(0.0);
+  d.turn_slip = a.turn_slip;
   d.friction = law_of(*c.ground).friction.constant();
   d.load = a.load;
   d.traction = a.traction;
@@ -176,7 +178,8 @@ double SteadyState<D>::resistance() const noexcept {
   const statics::RollingForces& f = solution_.forces;
   const double along =
       f.heading * std::cos(drive_.slip_angle) + f.lateral * std::sin(drive_.slip_angle);
-  return (-spin() * torque() - solution_.speed * along) / std::abs(solution_.speed);
+  const double yaw = drive_.turn_slip * f.aligning;
+  return (-spin() * torque() - solution_.speed * (along + yaw)) / std::abs(solution_.speed);
 }
 
 /// The slip ratio uses the component of the speed along the heading.
@@ -257,6 +260,9 @@ HistoryRecord SteadyState<D>::record(int place, const Snapshot& now) const {
   h.torque = s.forces.torque;
   h.moment_aligning = s.forces.aligning;
   h.moment_overturning = s.forces.overturning;
+  h.moments_iso = GroundFrame(case_.motion.camber)
+                      .about_contact_centre({s.forces.aligning, s.forces.overturning}, h.force,
+                                            solution_.height);
   h.nodes = s.nodes;
   h.sticking = s.sticking;
   h.contact_length = s.stick + s.slip;

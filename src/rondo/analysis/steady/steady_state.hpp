@@ -52,7 +52,7 @@ class SteadyState final : public RolledState {
   using Vec = typename statics::RollingBody<D>::Vec;
   /// The torque on the rim, clockwise, that keeps the spin constant [N m].
   [[nodiscard]] double torque() const noexcept { return solution_.forces.torque; }
-  /// Power lost over speed: (ω T - V·F) / |V|; NaN where V is 0 [N].
+  /// Power lost over speed: (ω T - V·F - φ V M_n) / |V|; NaN where V is 0 [N].
   [[nodiscard]] double resistance() const noexcept;
   [[nodiscard]] double slip_ratio() const noexcept;
   [[nodiscard]] HistoryRecord record(int place, const Snapshot& now) const;

@@ -136,15 +136,16 @@ std::string SteadyState<D>::not_solved() const {
       a.load ? " or analysis.load" : "");
 }
 
-/// At a slip angle what is lost is the drag of cornering as well.
+/// At a slip angle or in a turn what is lost is the drag of cornering as well.
 template <int D>
 std::string SteadyState<D>::resistance_note() const {
   if (solution_.speed == 0.0) return {};
   const double per_speed = 1.0 / std::abs(solution_.speed);
+  const bool is_straight = drive_.slip_angle == 0.0 && drive_.turn_slip == 0.0;
   return fmt::format(
       "{} {:.6g} {}: material {:.4g}, mass damping {:.4g}, stiffness damping {:.4g}, "
       "friction {:.4g}, scheme {:.2g}",
-      drive_.slip_angle == 0.0 ? "rolling resistance" : "power lost over speed", resistance(),
+      is_straight ? "rolling resistance" : "power lost over speed", resistance(),
       D == 2 ? "N/m" : "N", power_.viscosity * per_speed, power_.mass * per_speed,
       power_.stiffness * per_speed, power_.friction * per_speed, -power_.scheme * per_speed);
 }
@@ -163,8 +164,11 @@ std::vector<std::string> SteadyState<D>::notes() const {
     notes = {fmt::format("traction {:.6g} N, load {:.6g} N, lateral force {:.6g} N, aligning "
                          "moment {:.6g} N m, torque {:.6g} N m",
                          f.heading, f.normal, f.lateral, f.aligning, torque()),
-             fmt::format("{}, slip angle {:.4g} rad, camber {:.4g} rad", place, drive_.slip_angle,
-                         case_.motion.camber)};
+             fmt::format("{}, slip angle {:.4g} rad, camber {:.4g} rad{}", place, drive_.slip_angle,
+                         case_.motion.camber,
+                         drive_.turn_slip != 0.0
+                             ? fmt::format(", turn slip {:.4g} 1/m", drive_.turn_slip)
+                             : std::string())};
   }
   if (std::string lost = resistance_note(); !lost.empty()) notes.push_back(std::move(lost));
   return notes;

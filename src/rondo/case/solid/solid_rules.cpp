@@ -19,7 +19,7 @@ void check_plane(CaseValues& in) {
   if (in.has("disk.width") || in.has_table("section")) return;  // has a fault
   for (const std::string_view key :
        {"disk.crown_radius", "disk.mesh.axial", "disk.tread.circumferential_grooves",
-        "motion.slip_angle", "motion.camber"})
+        "motion.slip_angle", "motion.camber", "motion.turn_slip"})
     if (in.has(key))
       in.refuse(key, fmt::format("applies to {} only, and the body is plane", wheel),
                 "disk.width beside it, which gives the disk a width; or a [section]");

@@ -32,7 +32,7 @@ void fill(const RollingProblem<D>& problem, const RollingState& state, RollingSo
   s.force = p.force;
   s.status = state.statuses;
   s.residual = state.residual;
-  s.gap_and_slip = gaps_and_ways(problem, p, s.slip_angle);
+  s.gap_and_slip = gaps_and_ways(problem, p, s.path);
   for (Index j = 0; j < s.force.size(); j += D)
     s.gap_and_slip.segment<D - 1>(j + 1) /= problem.time;
   s.place = places(problem, p.force);
@@ -84,7 +84,7 @@ RollingSolution grow(RollingWindow<D>& window, const RollingDrive& drive, Rollin
   const OneBlasThread one_thread;
   const double radius = window.lowest();
   RollingSolution s;
-  s.slip_angle = drive.slip_angle;
+  s.path = drive.path();
   int unsolved = 0;
   for (int round = 0; round < most_rounds; ++round) {
     const RollingProblem<D>& problem = window.problem();

@@ -21,7 +21,7 @@ enum class RollingEnd {
 struct RollingSolution {
   RollingEnd end = RollingEnd::not_solved;
   double height = 0.0, speed = 0.0;  ///< [m], [m/s]
-  double slip_angle = 0.0;           ///< [rad]
+  RollingPath path{};                ///< that of the drive
   Eigen::VectorXd force{};           ///< (D pairs) along n, t1, t2                            [N]
   Eigen::VectorXd gap_and_slip{};    ///< (D pairs) [m], [m/s]
   Eigen::VectorXd place{};           ///< ((D - 1) pairs) along t1 and t2 from the center      [m]
@@ -50,7 +50,7 @@ template <int D>
 template <int D>
 [[nodiscard]] double rolling_residual(const RollingWindow<D>& window, const RollingSolution& s,
                                       double friction) {
-  return rolling_residual(window.problem(), {s.force, s.height, s.speed}, s.slip_angle, friction);
+  return rolling_residual(window.problem(), {s.force, s.height, s.speed}, s.path, friction);
 }
 
 }  // namespace rondo::statics

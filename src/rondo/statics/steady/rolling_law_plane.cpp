@@ -69,7 +69,7 @@ void pivot(const PlaneProblem& problem, const RollingDrive& drive, RollingState&
     other.point = system.solve();
     other.slopes = system.slopes(other.point);
   }
-  other.residual = rolling_residual(problem, other.point, 0.0, drive.friction);
+  other.residual = rolling_residual(problem, other.point, {}, drive.friction);
   if (other.residual < s.residual || !std::isfinite(s.residual)) s = std::move(other);
 }
 
@@ -139,7 +139,7 @@ void newton(const RollingProblem<2>& problem, const RollingDrive& drive, Rolling
     const RollingSystem<2> system(problem, drive, s.statuses, before);
     s.effort.work += system.work();
     s.point = system.solve();
-    const VectorXd moved = gaps_and_ways(problem, s.point, 0.0);
+    const VectorXd moved = gaps_and_ways(problem, s.point, {});
     s.residual = residual_of(problem, s.point, moved, drive.friction);
     if (!s.point.force.allFinite()) return;
     RollingStatuses next = statuses_of(problem, s.point, moved, drive.friction);

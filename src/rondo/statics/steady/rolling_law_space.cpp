@@ -36,7 +36,7 @@ void iterate(const SpaceProblem& problem, const RollingDrive& drive, RollingStat
     s.effort.work += system.work();
     RollingPoint next = system.solve();
     if (!next.force.allFinite()) return;
-    const VectorXd moved = gaps_and_ways(problem, next, drive.slip_angle);
+    const VectorXd moved = gaps_and_ways(problem, next, drive.path());
     const double residual = residual_of(problem, next, moved, drive.friction);
     const bool better = residual < s.residual;
     without_gain = better ? 0 : without_gain + 1;
@@ -70,12 +70,14 @@ std::vector<Index> order_of(const SpaceProblem& problem) {
 
 /// Each pair's force by the law, those of all others as they are.
 void sweep(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
-  VectorXd moved = gaps_and_ways(problem, s.point, drive.slip_angle);
+  VectorXd moved = gaps_and_ways(problem, s.point, drive.path());
+  const Eigen::MatrixXd matrix =
+      yawing_matrix(problem, drive.turn_slip * s.point.speed * problem.time);
   const std::vector<Index> order = order_of(problem);
   for (int n = 0; n < sweeps_a_round; ++n, ++s.effort.sweeps)
     for (const Index pair : order) {
       const Index row = 3 * pair;
-      const NodeMatrix<3> own = problem.matrix.block<3, 3>(row, row);
+      const NodeMatrix<3> own = matrix.block<3, 3>(row, row);
       // The law of this pair alone has no single solution: it is left to the others.
       if (!(own(0, 0) > drive.friction * std::hypot(own(0, 1), own(0, 2)))) continue;
       contact::SpatialProblem local;
@@ -86,7 +88,7 @@ void sweep(const SpaceProblem& problem, const RollingDrive& drive, RollingState&
           node_vector(contact::solve_spatial(local, drive.friction).impulse) - before;
       if (change.isZero(0.0) || !change.allFinite()) continue;
       s.point.force.segment<3>(row) += change;
-      moved += problem.matrix.middleCols<3>(row) * change;
+      moved += matrix.middleCols<3>(row) * change;
     }
   const auto size = static_cast<double>(problem.size());
   s.effort.work += 2.0 * sweeps_a_round * size * size;

@@ -151,14 +151,14 @@ RollingState without_forces(const RollingProblem<D>& problem, const RollingDrive
 
 template <int D>
 void look(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& s) {
-  const Eigen::VectorXd moved = gaps_and_ways(problem, s.point, drive.slip_angle);
+  const Eigen::VectorXd moved = gaps_and_ways(problem, s.point, drive.path());
   s.statuses = statuses_of(problem, s.point, moved, drive.friction);
 }
 
 template <int D>
 double rolling_residual(const RollingProblem<D>& problem, const RollingPoint& point,
-                        double slip_angle, double friction) {
-  return residual_of(problem, point, gaps_and_ways(problem, point, slip_angle), friction);
+                        const RollingPath& path, double friction) {
+  return residual_of(problem, point, gaps_and_ways(problem, point, path), friction);
 }
 
 /// In space less friction leads to load, traction and torque at once, and fixed heights and speeds
@@ -189,8 +189,10 @@ template RollingState without_forces(const RollingProblem<3>&, const RollingDriv
                                      const RollingPoint&);
 template void look(const RollingProblem<2>&, const RollingDrive&, RollingState&);
 template void look(const RollingProblem<3>&, const RollingDrive&, RollingState&);
-template double rolling_residual(const RollingProblem<2>&, const RollingPoint&, double, double);
-template double rolling_residual(const RollingProblem<3>&, const RollingPoint&, double, double);
+template double rolling_residual(const RollingProblem<2>&, const RollingPoint&, const RollingPath&,
+                                 double);
+template double rolling_residual(const RollingProblem<3>&, const RollingPoint&, const RollingPath&,
+                                 double);
 template void solve_rolling(const RollingProblem<2>&, const RollingDrive&, RollingState&);
 template void solve_rolling(const RollingProblem<3>&, const RollingDrive&, RollingState&);
 

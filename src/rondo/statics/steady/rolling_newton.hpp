@@ -45,7 +45,7 @@ struct RollingState {
 /// Largest law residual over the largest force, each pair's own scaled by its compliance.
 template <int D>
 [[nodiscard]] double rolling_residual(const RollingProblem<D>& problem, const RollingPoint& point,
-                                      double slip_angle, double friction);
+                                      const RollingPath& path, double friction);
 
 /// From the height, the speed and the forces of the state on, in the plane from its statuses if it
 /// has some. In space the forces of a state that is solved, of fewer pairs or at another height,

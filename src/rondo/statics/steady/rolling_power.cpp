@@ -45,7 +45,8 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
   const Eigen::MatrixXcd surface = h.on_candidates(spectrum);
   const Eigen::MatrixXd u = h.fields(surface, 0.0, false), rate = h.fields(surface, 0.0, true);
   const auto damped = h.damped(spectrum);
-  const double ahead = s.speed * std::cos(s.slip_angle), aside = s.speed * std::sin(s.slip_angle);
+  const double ahead = s.speed * std::cos(s.path.slip_angle),
+               aside = s.speed * std::sin(s.path.slip_angle), yaw = s.path.turn_slip * s.speed;
   const NodeVector<D> speed = NodeVector<3>{0.0, ahead, aside}.head<D>();
   RollingPower power;
   power.mass = damped.by_mass;
@@ -56,6 +57,7 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
   // The torque of the ground alone: the weight's part is an entry of its own.
   const double torque = s.forces.torque + power.weight / spin;
   power.drive = ahead * s.forces.heading + aside * s.forces.lateral + spin * torque;
+  if (yaw != 0.0) power.drive += yaw * s.forces.aligning;
   double of_field = 0.0;  // Σ r·w by the field's own velocity
   double turned = 0.0;    // Σ |s x r_n|, of which the torque is what does not cancel
   for (std::size_t j = 0; j < w.pairs().size(); ++j) {
@@ -68,6 +70,10 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
     const NodeVector<D> way = quarter_turned<D>(arm) + rate.block<D, 1>(at, m);
     const NodeMatrix<D>& to_ground = w.to_ground(p.sample);
     of_field += force.dot(spin * (to_ground * way) + speed) / pass;
+    if (yaw != 0.0) {
+      const NodeVector<D - 1> place = (to_ground * arm).template tail<D - 1>();
+      of_field += yaw * force.dot(yawed<D>(place).reshaped()) / pass;
+    }
     turned += std::abs(spin * (to_ground * arm)[1] * force[0]) / pass;
     power.friction -=
         force.template tail<D - 1>().dot(s.gap_and_slip.segment<D - 1>(row + 1)) / pass;
@@ -77,10 +83,10 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
     inner = spin / pass * h.fields(spectrum, 0.0, true).cwiseProduct(remainder).sum();
   power.scheme = of_field + power.friction - inner;
   const double left = power.drive + power.damping() - power.weight - of_field + inner;
-  const double largest =
-      std::max({std::abs(ahead * s.forces.heading) + std::abs(aside * s.forces.lateral),
-                std::abs(spin * torque), power.mass, power.stiffness, power.viscosity,
-                std::abs(power.friction), least_power_share * turned});
+  const double largest = std::max(
+      {std::abs(ahead * s.forces.heading) + std::abs(aside * s.forces.lateral),
+       std::abs(spin * torque), std::abs(yaw * s.forces.aligning), power.mass, power.stiffness,
+       power.viscosity, std::abs(power.friction), least_power_share * turned});
   power.residual = largest > 0.0 ? std::abs(left) / largest : 0.0;
   find_scheme_shares(s.forces.normal * std::max(std::abs(s.speed), std::abs(spin) * s.height),
                      power);

@@ -10,7 +10,8 @@ namespace rondo::statics {
 
 /// drive + mass + stiffness + viscosity + friction - weight = scheme [W].
 struct RollingPower {
-  double drive = 0.0;      ///< V·F + s T: of speed and spin against the ground's forces
+  /// V·F + s T + φ V M_n: of speed, spin and yaw against the ground's forces
+  double drive = 0.0;
   double mass = 0.0;       ///< taken by mass damping
   double stiffness = 0.0;  ///< taken by stiffness damping
   double viscosity = 0.0;  ///< taken by the branches of the material

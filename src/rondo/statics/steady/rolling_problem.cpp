@@ -8,10 +8,11 @@ namespace rondo::statics {
 namespace {
 
 using Eigen::Index;
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// The product by the columns where there is a force: many pairs touch nothing.
-VectorXd times(const Eigen::MatrixXd& matrix, const VectorXd& force) {
+VectorXd times(const MatrixXd& matrix, const VectorXd& force) {
   VectorXd sum = VectorXd::Zero(matrix.rows());
   for (Index c = 0; c < force.size(); ++c)
     if (force[c] != 0.0) sum += force[c] * matrix.col(c);
@@ -61,13 +62,33 @@ NodeMatrix<3> ground_axes<3>(Complex lean) noexcept {
 }
 
 template <int D>
-VectorXd gaps_and_ways(const RollingProblem<D>& problem, const RollingPoint& p, double slip_angle) {
+MatrixXd yawed(const MatrixXd& places) {
+  const Index n = places.rows() / (D - 1);
+  MatrixXd moved = MatrixXd::Zero(D * n, places.cols());
+  if constexpr (D == 3) {
+    moved(Eigen::seqN(1, n, D), Eigen::all) = places(Eigen::seqN(1, n, D - 1), Eigen::all);
+    moved(Eigen::seqN(2, n, D), Eigen::all) = -places(Eigen::seqN(0, n, D - 1), Eigen::all);
+  }
+  return moved;
+}
+
+template <int D>
+MatrixXd yawing_matrix(const RollingProblem<D>& problem, double turn) {
+  if (turn == 0.0) return problem.matrix;
+  return problem.matrix + turn * yawed<D>(problem.matrix_place);
+}
+
+template <int D>
+VectorXd gaps_and_ways(const RollingProblem<D>& problem, const RollingPoint& p,
+                       const RollingPath& path) {
   VectorXd all = problem.base + times(problem.matrix, p.force);
   const Index m = problem.n_pairs();
   const double way = p.speed * problem.time;
   all(Eigen::seqN(0, m, D)).array() += p.height;
-  all(Eigen::seqN(1, m, D)).array() += way * std::cos(slip_angle);
-  if constexpr (D == 3) all(Eigen::seqN(2, m, D)).array() += way * std::sin(slip_angle);
+  all(Eigen::seqN(1, m, D)).array() += way * std::cos(path.slip_angle);
+  if constexpr (D == 3) all(Eigen::seqN(2, m, D)).array() += way * std::sin(path.slip_angle);
+  if (path.turn_slip != 0.0)
+    all += way * path.turn_slip * yawed<D>(places(problem, p.force)).reshaped();
   return all;
 }
 
@@ -150,7 +171,9 @@ RollingForces forces_change(const RollingProblem<D>& problem, const RollingPoint
   return f;
 }
 
-template VectorXd gaps_and_ways(const RollingProblem<2>&, const RollingPoint&, double);
+template MatrixXd yawed<2>(const MatrixXd&);
+template MatrixXd yawing_matrix(const RollingProblem<2>&, double);
+template VectorXd gaps_and_ways(const RollingProblem<2>&, const RollingPoint&, const RollingPath&);
 template VectorXd places(const RollingProblem<2>&, const VectorXd&);
 template RollingForces forces_of(const RollingProblem<2>&, const RollingPoint&);
 template void add_force<2>(const NodeVector<2>&, const NodeVector<1>&, double, Complex, double,
@@ -158,7 +181,9 @@ template void add_force<2>(const NodeVector<2>&, const NodeVector<1>&, double, C
 template TorqueChange torque_change(const RollingProblem<2>&, const RollingPoint&);
 template RollingForces forces_change(const RollingProblem<2>&, const RollingPoint&,
                                      const TorqueChange&, const RollingPoint&);
-template VectorXd gaps_and_ways(const RollingProblem<3>&, const RollingPoint&, double);
+template MatrixXd yawed<3>(const MatrixXd&);
+template MatrixXd yawing_matrix(const RollingProblem<3>&, double);
+template VectorXd gaps_and_ways(const RollingProblem<3>&, const RollingPoint&, const RollingPath&);
 template VectorXd places(const RollingProblem<3>&, const VectorXd&);
 template RollingForces forces_of(const RollingProblem<3>&, const RollingPoint&);
 template void add_force<3>(const NodeVector<3>&, const NodeVector<2>&, double, Complex, double,

@@ -40,18 +40,26 @@ struct RollingProblem {
   [[nodiscard]] Eigen::Index n_pairs() const noexcept { return base.size() / D; }
 };
 
+/// How the center goes along the ground. All 0 in the plane.
+struct RollingPath {
+  double slip_angle = 0.0;  ///< α: along cos α t1 + sin α t2                             [rad]
+  double turn_slip = 0.0;   ///< φ: the body turns by φ V about n; > 0 to the left, to -t2 [1/m]
+};
+
 /// One of height and load is given, and one of speed, traction and torque.
 struct RollingDrive {
   double height = 0.0;      ///< h, of the center above the ground; without a load             [m]
   double speed = 0.0;       ///< V; without traction and torque; else where to start         [m/s]
   double slip_angle = 0.0;  ///< α: the center goes along cos α t1 + sin α t2; 0 in the plane [rad]
-  double friction = 0.0;    ///< μ >= 0
+  double turn_slip = 0.0;  ///< φ: yaw rate over V, > 0 to the left; 0 in the plane           [1/m]
+  double friction = 0.0;   ///< μ >= 0
   std::optional<double> load{};      ///< force of the ground on the body along n, > 0           [N]
   std::optional<double> traction{};  ///< force of the ground on the body along t1               [N]
   std::optional<double> torque{};    ///< of ground and weight, counter-clockwise              [N m]
 
   /// Height and speed are given.
   [[nodiscard]] bool is_fixed() const noexcept { return !load && !traction && !torque; }
+  [[nodiscard]] RollingPath path() const noexcept { return {slip_angle, turn_slip}; }
 };
 
 /// Forces on all pairs, height and speed of the center.
@@ -74,10 +82,19 @@ struct RollingForces {
 template <int D>
 [[nodiscard]] NodeMatrix<D> ground_axes(Complex lean) noexcept;
 
-/// Gaps and ways of all pairs, (D pairs) [m].
+/// Gaps and ways of all pairs, (D pairs) [m]. With a turn slip the ways are those of the displaced
+/// places x, φ V time n × x more: bilinear in speed and forces.
 template <int D>
 [[nodiscard]] Eigen::VectorXd gaps_and_ways(const RollingProblem<D>& problem,
-                                            const RollingPoint& point, double slip_angle);
+                                            const RollingPoint& point, const RollingPath& path);
+/// n × x of places x: 0, and along t1 and t2 what a turn of 1 to the left moves them by. In the
+/// plane 0. @param places ((D - 1) pairs, columns). @return (D pairs, columns)
+template <int D>
+[[nodiscard]] Eigen::MatrixXd yawed(const Eigen::MatrixXd& places);
+/// What forces add to gaps and ways of a body that turns by so much about n in a sample's time.
+/// @param turn φ V time [rad]. @return (D pairs, D pairs) [m/N]
+template <int D>
+[[nodiscard]] Eigen::MatrixXd yawing_matrix(const RollingProblem<D>& problem, double turn);
 /// Places of all pairs along t1 and t2 from the center, ((D - 1) pairs) [m].
 template <int D>
 [[nodiscard]] Eigen::VectorXd places(const RollingProblem<D>& problem,

@@ -66,7 +66,7 @@ RollingSystem<D>::RollingSystem(const RollingProblem<D>& problem, const RollingD
   const Index size = n_forces_ + (has_height() ? 1 : 0) + (has_speed() ? 1 : 0);
   matrix_ = Eigen::MatrixXd::Zero(size, size);
   right_ = VectorXd::Zero(size);
-  fill();
+  fill(around);
   add_border(around);
   factorise();
 }
@@ -115,20 +115,29 @@ void RollingSystem<D>::reduce(const Moved& moved, Eigen::Ref<VectorXd> rows) con
 }
 
 /// Row of a sliding pair whose direction turns: r_t - μ r_n e - C (r_t - w/c) = 0, in ways; C q_t
-/// is 0.
+/// is 0. With a turn slip the ways by speed times displacement are linearised: what forces add to
+/// them is in the matrix, at the speed so far.
 template <int D>
-void RollingSystem<D>::fill() {
+void RollingSystem<D>::fill(const RollingPoint& around) {
+  const double turn = drive_.turn_slip * around.speed * problem_.time;
+  Eigen::MatrixXd with_turn;
+  if (turn != 0.0) with_turn = yawing_matrix(problem_, turn);
+  const Eigen::MatrixXd& matrix = turn != 0.0 ? with_turn : problem_.matrix;
   for (const Pair& column : closed_) {
     const Index first = D * column.pair;
     if (column.edge == 0.0)
-      reduce(problem_.matrix.col(first), matrix_.col(column.at));
+      reduce(matrix.col(first), matrix_.col(column.at));
     else
-      reduce(problem_.matrix.col(first) + column.edge * problem_.matrix.col(first + 1),
-             matrix_.col(column.at));
+      reduce(matrix.col(first) + column.edge * matrix.col(first + 1), matrix_.col(column.at));
     for (Index c = 1; c < column.unknowns; ++c)
-      reduce(problem_.matrix.col(first + c), matrix_.col(column.at + c));
+      reduce(matrix.col(first + c), matrix_.col(column.at + c));
   }
-  reduce(-problem_.base, right_);
+  VectorXd right = -problem_.base;
+  if (turn != 0.0) {  // both factors of the product have what the forces so far add to it
+    const VectorXd displaced = places(problem_, around.force) - problem_.base_place;
+    right += turn * yawed<D>(displaced).reshaped();
+  }
+  reduce(right, right_);
   for (const Pair& p : closed_) {
     if (p.sticks || p.unknowns == 1) continue;
     matrix_.template block<D - 1, 1>(p.at + 1, p.at) -=
@@ -148,6 +157,22 @@ VectorXd RollingSystem<D>::rigid(double height, double ahead, double aside) cons
   return rows;
 }
 
+/// Rows by which all ways change with φ V: time n × x at the places of a point.
+template <int D>
+VectorXd RollingSystem<D>::yawing(const RollingPoint& around) const {
+  VectorXd rows = VectorXd::Zero(right_.size());
+  reduce(problem_.time * yawed<D>(places(problem_, around.force)).reshaped(), rows);
+  return rows;
+}
+
+/// Rows by which all ways change with the speed.
+template <int D>
+VectorXd RollingSystem<D>::by_speed(const RollingPoint& around) const {
+  VectorXd rows = rigid(0.0, std::cos(drive_.slip_angle), std::sin(drive_.slip_angle));
+  if (drive_.turn_slip != 0.0) rows += drive_.turn_slip * yawing(around);
+  return rows;
+}
+
 template <int D>
 void RollingSystem<D>::add_sum(Index row, const VectorXd& by_force) {
   for (const Pair& p : closed_) {
@@ -160,7 +185,7 @@ void RollingSystem<D>::add_sum(Index row, const VectorXd& by_force) {
 template <int D>
 void RollingSystem<D>::add_border(const RollingPoint& around) {
   const VectorXd up = rigid(1.0, 0.0, 0.0);
-  const VectorXd on = rigid(0.0, std::cos(drive_.slip_angle), std::sin(drive_.slip_angle));
+  const VectorXd on = by_speed(around);
   const auto sum_of = [&](Index component) {
     VectorXd ones = VectorXd::Zero(problem_.size());
     ones(Eigen::seqN(component, problem_.n_pairs(), D)).setOnes();
@@ -271,7 +296,6 @@ RollingSlopes RollingSystem<D>::slopes(const RollingPoint& around) const {
     return RollingSlope{forces_change(problem_, around, torque, change), change.height,
                         change.speed};
   };
-  const double angle = drive_.slip_angle, cosine = std::cos(angle), sine = std::sin(angle);
   RollingSlopes s;
   VectorXd right = VectorXd::Zero(right_.size());
   if (has_height()) {
@@ -285,10 +309,14 @@ RollingSlopes RollingSystem<D>::slopes(const RollingPoint& around) const {
   if (has_speed())
     right[of_speed()] = problem_.pass;
   else
-    right = -rigid(0.0, cosine, sine);
+    right = -by_speed(around);
   s.by_speed = slope(point_of(solved(right), 0.0, 1.0));
-  if constexpr (D == 3)
-    s.by_slip_angle = slope(point_of(solved(-around.speed * rigid(0.0, -sine, cosine)), 0.0, 0.0));
+  if constexpr (D == 3) {
+    const double angle = drive_.slip_angle;
+    const VectorXd across = rigid(0.0, -std::sin(angle), std::cos(angle));
+    s.by_slip_angle = slope(point_of(solved(-around.speed * across), 0.0, 0.0));
+    s.by_turn_slip = slope(point_of(solved(-around.speed * yawing(around)), 0.0, 0.0));
+  }
   if (D == 2 || drive_.friction > 0.0) s.by_friction = slope(by_friction(around, torque));
   return s;
 }

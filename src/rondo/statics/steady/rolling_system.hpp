@@ -47,15 +47,16 @@ struct RollingSlope {
 };
 
 /// By friction; by height, or load where that is given; by speed, or traction or torque; by the
-/// slip angle, in space.
+/// slip angle and the turn slip, in space.
 struct RollingSlopes {
-  RollingSlope by_friction, by_height, by_speed, by_slip_angle;
+  RollingSlope by_friction, by_height, by_speed, by_slip_angle, by_turn_slip;
 };
 
 template <int D>
 class RollingSystem {
  public:
-  /// @param around what the torque, which is not linear, is taken at. All must outlive it.
+  /// @param around what is not linear is taken at: the torque, and with a turn slip the ways, by
+  /// speed times places. All must outlive it.
   RollingSystem(const RollingProblem<D>& problem, const RollingDrive& drive,
                 const RollingStatuses& statuses, const RollingPoint& around);
 
@@ -82,7 +83,7 @@ class RollingSystem {
   [[nodiscard]] NodeVector<D - 1> direction(Eigen::Index pair) const noexcept;
   [[nodiscard]] NodeMatrix<D - 1> turning(Eigen::Index pair) const noexcept;
   void number();
-  void fill();
+  void fill(const RollingPoint& around);
   void add_border(const RollingPoint& around);
   void add_sum(Eigen::Index row, const Eigen::VectorXd& by_force);
   void factorise();
@@ -90,6 +91,8 @@ class RollingSystem {
   template <class Moved>
   void reduce(const Moved& moved, Eigen::Ref<Eigen::VectorXd> rows) const;
   [[nodiscard]] Eigen::VectorXd rigid(double height, double ahead, double aside) const;
+  [[nodiscard]] Eigen::VectorXd yawing(const RollingPoint& around) const;
+  [[nodiscard]] Eigen::VectorXd by_speed(const RollingPoint& around) const;
   [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& part) const;
   [[nodiscard]] Eigen::VectorXd solved(Eigen::VectorXd right) const;
   [[nodiscard]] RollingPoint point_of(const Eigen::VectorXd& unknowns, double height,

@@ -87,6 +87,18 @@ void warn_of_angle(const char* key, double angle, std::vector<std::string>& warn
       key, angle, angle * 180.0 / std::numbers::pi));
 }
 
+void warn_of_turn_slip(const Case& c, const mesh::Mesh& mesh, std::vector<std::string>& warnings) {
+  double radius = 0.0;
+  for (const int node : mesh.boundary) radius = std::max(radius, norm(mesh.coordinates[at(node)]));
+  const double turn = std::abs(c.analysis.turn_slip);
+  if (turn * radius <= 1.0) return;
+  warnings.push_back(
+      fmt::format("motion.turn_slip: the path has a radius of {:.3g} m, less than the wheel, which "
+                  "has {:.3g} m; "
+                  "is the value the radius of the path, and not one over it?",
+                  1.0 / turn, radius));
+}
+
 /// The tread lies to one side of the plane in which the wheel is held, turned and steered.
 void warn_of_section(const Case& c, const mesh::Mesh& mesh, std::vector<std::string>& warnings) {
   if (!c.section || mesh.boundary.empty()) return;
@@ -116,6 +128,7 @@ void warn_of_senses(const Case& c, const mesh::Mesh& mesh,
   warn_of_pressures(c, materials, warnings);
   warn_of_angle("motion.slip_angle", c.motion.slip_angle.largest(), warnings);
   warn_of_angle("motion.camber", std::abs(c.motion.camber), warnings);
+  warn_of_turn_slip(c, mesh, warnings);
   warn_of_section(c, mesh, warnings);
 }
 
