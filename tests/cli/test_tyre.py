@@ -303,8 +303,6 @@ class Refused(TyreTest):
                 (replaced(INFLATED, "curve = \"liner\"", None), "there is no wall", []),
                 (INFLATED, "shear_modulus = E / (2 (1 + ν)) = 1.01351e+06",
                  ["material.model=linear", "material.youngs_modulus=3e6"]),
-                (INFLATED, "branches relax",
-                 ["material.viscosity=[{relative_modulus = 0.5, time = 0.001}]"]),
                 (INFLATED, "is the name of another one",
                  ["inflation.mounting=[{curve='rim-left'}, {curve='rim-left'}]"]),
                 (MOVING, "linear about one pressure",

@@ -164,6 +164,26 @@ history_interval = 1e-4
         less = self.state(tyre(3000.0), "--set", "material.loss_factor=0.075", *LOSS[2:])
         self.assertAlmostEqual(less["rolling_resistance"] / base["rolling_resistance"], 0.5, delta=0.1)
 
+    def test_modes_are_damped_by_half_of_the_loss_factor(self):
+        """The loss factor is .15 to 2.4 % within the band, and the frequency is as the stiffness there."""
+        ring = replaced(replaced(CYLINDER[:CYLINDER.index("[analysis]")], "radial", "radial = 6"), "circumferential",
+                        "circumferential = 48")
+        ring = replaced(replaced(ring, "grading", None), "youngs_modulus", "youngs_modulus = 1e4")
+        ring = replaced(ring, "speed", "speed = 1.0\nheight = 0.1") + "[time]\nend = 1.0\n"
+        wide = ring.replace("inner_radius = 0.01", "inner_radius = 0.01\nwidth = 0.02").replace("radial = 6", "radial = 6\naxial = 2")
+        for text in (ring, wide):
+            case, slow = self.case(text), []
+            for words in ((), LOSS):
+                done = run("modes", case, "-o", self.out, "--overwrite", "--quiet", *words)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                table = np.genfromtxt(self.out / "modes.csv", delimiter=",", names=True, dtype=None, encoding=None)
+                if not words:
+                    slow = table["frequency_hz"]
+            found = table["frequency_hz"]
+            self.assertTrue((found > 5.0).all() and (found < 500.0).all(), found)
+            np.testing.assert_allclose(table["damping_ratio"], 0.075, rtol=0.05)
+            self.assertTrue(((found / slow) ** 2 > 1.15).all() and ((found / slow) ** 2 < 1.9).all())
+
     def test_check_tells_the_loss_factor(self):
         case = self.case(replaced(CYLINDER, "circumferential", "circumferential = 60"))
         told = run("check", case, *LOSS).stdout

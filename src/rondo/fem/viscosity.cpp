@@ -146,26 +146,31 @@ template std::vector<ViscousPart<SolidSector>> viscous_parts(const mesh::Mesh&,
 template std::vector<ViscousPart<BlockCsr>> viscous_parts(const mesh::Mesh&,
                                                           std::span<const Material>, ViscousBy);
 
-SolidSector with_branches(const SolidSector& k, std::span<const ViscousPart<SolidSector>> parts) {
-  SolidSector all = k;
-  for (const ViscousPart<SolidSector>& part : parts) {
+template <int C>
+SectorBlocks<C> with_branches(const SectorBlocks<C>& k,
+                              std::span<const ViscousPart<SectorBlocks<C>>> parts) {
+  SectorBlocks<C> all = k;
+  for (const ViscousPart<SectorBlocks<C>>& part : parts) {
     RONDO_DEMAND(part.stiffness.nodes == k.nodes, part.stiffness.n_local(), k.n_local());
     double sum = 0.0;
     for (const ViscousBranch& b : part.branches) sum += b.relative_modulus;
     for (std::size_t a = 0; a < k.n_local(); ++a)
-      for (const SolidSector::Entry& e : part.stiffness.row(a)) {
+      for (const auto& e : part.stiffness.row(a)) {
         if (std::ranges::all_of(e.block, [](double value) { return value == 0.0; })) continue;
         const auto row =
             std::span(all.entries).subspan(k.row_start[a], k.row_start[a + 1] - k.row_start[a]);
-        const auto same = std::ranges::find_if(row, [&](const SolidSector::Entry& of) {
-          return of.column == e.column && of.shift == e.shift;
-        });
+        const auto same = std::ranges::find_if(
+            row, [&](const auto& of) { return of.column == e.column && of.shift == e.shift; });
         RONDO_DEMAND(same != row.end(), a, e.column, e.shift);
         for (std::size_t i = 0; i < e.block.size(); ++i) same->block[i] += sum * e.block[i];
       }
   }
   return all;
 }
+
+template SectorStiffness with_branches(const SectorStiffness&,
+                                       std::span<const ViscousPart<SectorStiffness>>);
+template SolidSector with_branches(const SolidSector&, std::span<const ViscousPart<SolidSector>>);
 
 double fit_error(std::span<const ViscousBranch> branches, double tangent, Band band) {
   double largest = 0.0;

@@ -59,7 +59,8 @@ template <class Stiffness>
 
 /// K and all branches: the stiffness of sudden strains.
 /// @pre K has blocks where the parts have blocks that are not 0
-[[nodiscard]] SolidSector with_branches(const SolidSector& k,
-                                        std::span<const ViscousPart<SolidSector>> parts);
+template <int C>
+[[nodiscard]] SectorBlocks<C> with_branches(const SectorBlocks<C>& k,
+                                            std::span<const ViscousPart<SectorBlocks<C>>> parts);
 
 }  // namespace rondo::fem

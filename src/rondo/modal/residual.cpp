@@ -81,18 +81,18 @@ double residual_of(Products<D> p, std::span<const double> mass, double spin, con
 }
 
 template <int D>
-double damping_ratio_of(std::span<const double> mass, double spin, const Mode& mode,
-                        Damping damping) {
+ModeForms forms_in(std::span<const double> mass, double spin, const Mode& mode) {
   using Vec = VecOf<D>;
   const std::span<const Vec> real = mode.real, imaginary = mode.imaginary;
-  double gyroscopic = 0.0, softening = 0.0;  // φᴴ 2sMJ φ / i, φᴴ s²MP φ
+  ModeForms forms;
   for (std::size_t i = 0; i < mass.size(); ++i) {
     const Vec r = in_plane(real[i]), q = in_plane(imaginary[i]);
-    gyroscopic += 4.0 * spin * mass[i] * dot(r, quarter_turned(q));
-    softening += spin * spin * mass[i] * (dot(r, r) + dot(q, q));
+    forms.gyroscopic += 4.0 * spin * mass[i] * dot(r, quarter_turned(q));
+    forms.softening += spin * spin * mass[i] * (dot(r, r) + dot(q, q));
   }
-  const double w = mode.omega, elastic = w * w + w * gyroscopic + softening;
-  return (damping.mass + damping.stiffness * elastic) / (2.0 * w + gyroscopic);
+  const double w = mode.omega;
+  forms.elastic = w * w + w * forms.gyroscopic + forms.softening;
+  return forms;
 }
 
 }  // namespace
@@ -133,11 +133,16 @@ double residual(const MeshBody& body, double spin, const Mode& mode) {
   return residual_of<2>(std::move(p), body.mass, spin, mode);
 }
 
+ModeForms forms_of(std::span<const double> mass, double spin, const Mode& mode) {
+  return mode.real.components() == 2 ? forms_in<2>(mass, spin, mode)
+                                     : forms_in<3>(mass, spin, mode);
+}
+
 double damping_ratio(std::span<const double> mass, double spin, const Mode& mode, Damping damping) {
   if (mode.wave == Wave::rigid || !(mode.omega > 0.0))
     return std::numeric_limits<double>::quiet_NaN();
-  return mode.real.components() == 2 ? damping_ratio_of<2>(mass, spin, mode, damping)
-                                     : damping_ratio_of<3>(mass, spin, mode, damping);
+  const ModeForms forms = forms_of(mass, spin, mode);
+  return (damping.mass + damping.stiffness * forms.elastic) / (2.0 * mode.omega + forms.gyroscopic);
 }
 
 template double residual(const CyclicBody<2>&, double, const Mode&);

@@ -17,6 +17,15 @@ struct Damping {
   double mass = 0.0, stiffness = 0.0;
 };
 
+/// Of a mode of the undamped body, φᴴMφ = 1.
+struct ModeForms {
+  double gyroscopic = 0.0;  ///< φᴴ 2sMJ φ/i                                           [rad/s]
+  double softening = 0.0;   ///< φᴴ s²MP φ                                          [1/s²]
+  double elastic = 0.0;     ///< φᴴ K φ, by (8.1)                                   [1/s²]
+};
+/// @param mass (n)
+ModeForms forms_of(std::span<const double> mass, double spin, const Mode& mode);
+
 /// Rate at which damping lets a mode decay, over ω: (αm + βk)/(2ω + g) with m = 1, k = φᴴKφ and g =
 /// φᴴ2sMJφ/i, for φ of the undamped body. At rest it is (α/ω + βω)/2, exactly; in spin an error of
 /// second order in the damping remains. NaN of rigid-body motions. @param mass (n)

@@ -88,7 +88,7 @@ TEST(ViscousParts, OfLinearMaterialsAddUpToTheStiffness) {
       EXPECT_NEAR(joined[0].stiffness.entries[e].block[i], whole, 1e-9 * 5e7);
     }
   EXPECT_GT(largest, 1e5);
-  const SolidSector at_once = with_branches(k, parts);
+  const SolidSector at_once = with_branches<3>(k, parts);
   for (std::size_t e = 0; e < k.entries.size(); ++e)
     EXPECT_NEAR(at_once.entries[e].block[0], 1.7 * k.entries[e].block[0], 1e-8 * 5e7);
   EXPECT_NEAR(instantaneous(materials())[1].youngs_modulus, 1.7 * 5e7, 1.0);

@@ -11,7 +11,6 @@
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/plausible/number_range.hpp"
 #include "rondo/analysis/build/tyre/wheel_at_rest.hpp"
-#include "rondo/case/rubber/material.hpp"
 #include "rondo/modal/modes.hpp"
 
 namespace rondo::study {
@@ -38,9 +37,10 @@ double complete_solid(const Case& c, ModesBody& b) {
                      "nothing holds the wheel: the modes of a wheel in three dimensions are "
                      "computed with its rim held",
                      c.section ? "the curve that the rim holds" : "\"bonded\"");
-  WheelAtRest rest = wheel_at_rest(c, b.mesh, b.materials);
+  WheelAtRest rest = wheel_at_rest(c, b.mesh, b.materials, fem::ViscousBy::branches);
   b.mass = std::move(rest.mass);
   b.sector = std::move(rest.sector);
+  b.viscous = std::move(rest.viscous);
   b.inflation = std::move(rest.inflation);
   return rest.frequencies_below;
 }
@@ -56,11 +56,6 @@ ModesBody make_modes_body(const Case& c) {
   b.mesh = build_mesh(c, &b.warnings);
   b.materials = materials_of(c, b.mesh);
   warn_of_units(c, b.mesh, b.materials, b.warnings);
-  if (has_viscosity(c) && !has_rubber(c))
-    b.warnings.emplace_back(
-        "modes are those of slow strains: viscous branches would raise the frequencies and damp "
-        "the "
-        "modes, and `rondo check` tells by how much the stiffness is higher at a frequency");
   b.largest_frequency = std::sqrt(is_solid(c) ? complete_solid(c, b) : complete_plane(c, b));
   if (!(b.largest_frequency > 0.0) || !std::isfinite(b.largest_frequency))
     throw case_error(c, furthest_key(c),

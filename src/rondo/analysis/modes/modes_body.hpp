@@ -9,6 +9,7 @@
 #include "rondo/case/inflation_figures.hpp"
 #include "rondo/fem/elasticity.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/fem/viscosity.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::study {
@@ -23,6 +24,7 @@ struct ModesBody {
   std::vector<std::string> warnings{};  ///< warnings of the case and the mesh
   // A wheel in three dimensions has these, about the state of the case:
   fem::SolidSector sector{};
+  std::vector<fem::ViscousPart<fem::SolidSector>> viscous{};
   std::optional<InflationFigures> inflation{};
 
   [[nodiscard]] bool cyclic() const noexcept { return mesh.n_sectors > 0; }

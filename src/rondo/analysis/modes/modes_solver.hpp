@@ -10,6 +10,7 @@
 #include "rondo/analysis/modes/standing.hpp"
 #include "rondo/modal/critical_speeds.hpp"
 #include "rondo/modal/modes.hpp"
+#include "rondo/modal/viscous_mode.hpp"
 
 namespace rondo::study {
 
@@ -18,6 +19,14 @@ struct SolvedModes {
   modal::Modes found;
   std::vector<double> residuals, damping_ratios;  ///< ratios: NaN of rigid-body motions
 };
+
+/// Frequencies and damping ratios with the viscous branches of the body; the order stays.
+template <class Stiffness>
+void take_branches(std::span<const fem::ViscousPart<Stiffness>> parts, std::span<const double> mass,
+                   double spin, modal::Damping damping, SolvedModes& s) {
+  for (std::size_t i = 0; i < s.found.modes.size() && !parts.empty(); ++i)
+    s.damping_ratios[i] = modal::take_branches(parts, mass, spin, damping, s.found.modes[i]);
+}
 
 class ModesSolver {
  public:

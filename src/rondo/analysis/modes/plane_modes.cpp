@@ -40,8 +40,14 @@ class PlaneModes final : public ModesSolver {
       }
       return s;
     };
-    if (body_.cyclic()) return solve(cyclic(), modal::cyclic_modes<2>);
-    return solve(modal::MeshBody{body_.mesh, stiffness_, body_.mass}, modal::mesh_modes);
+    if (body_.cyclic()) {
+      SolvedModes s = solve(cyclic(), modal::cyclic_modes<2>);
+      take_branches(viscous_parts<fem::SectorStiffness>(), spin, s);
+      return s;
+    }
+    SolvedModes s = solve(modal::MeshBody{body_.mesh, stiffness_, body_.mass}, modal::mesh_modes);
+    take_branches(viscous_parts<fem::BlockCsr>(), spin, s);
+    return s;
   }
 
   [[nodiscard]] std::vector<modal::CriticalSpeed> critical(int last) override {
@@ -60,6 +66,17 @@ class PlaneModes final : public ModesSolver {
   }
 
  private:
+  /// None of rubber at finite strain, whose modes are those of slow strains.
+  template <class Stiffness>
+  [[nodiscard]] std::vector<fem::ViscousPart<Stiffness>> viscous_parts() const {
+    if (fem::has_rubber(body_.materials)) return {};
+    return fem::viscous_parts<Stiffness>(body_.mesh, body_.materials, fem::ViscousBy::branches);
+  }
+  template <class Stiffness>
+  void take_branches(const std::vector<fem::ViscousPart<Stiffness>>& parts, double spin,
+                     SolvedModes& s) const {
+    study::take_branches<Stiffness>(parts, body_.mass, spin, damping_, s);
+  }
   void assemble(double spin) {
     std::vector<Vec2> prestress;
     if (spin != 0.0)

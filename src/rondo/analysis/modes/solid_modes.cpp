@@ -22,13 +22,16 @@ Case with_state_at(const Case& c, double spin) {
 struct WheelAt {
   mesh::Mesh mesh;
   fem::SolidSector sector;
+  std::vector<fem::ViscousPart<fem::SolidSector>> viscous;
 };
 
 WheelAt wheel_at(const Case& c, double spin) {
   const Case of = with_state_at(c, spin);
-  WheelAt wheel{build_mesh(of), {}};
+  WheelAt wheel{build_mesh(of), {}, {}};
   std::vector<fem::Material> materials = materials_of(of, wheel.mesh);
-  wheel.sector = wheel_at_rest(of, wheel.mesh, materials).sector;
+  WheelAtRest rest = wheel_at_rest(of, wheel.mesh, materials, fem::ViscousBy::branches);
+  wheel.sector = std::move(rest.sector);
+  wheel.viscous = std::move(rest.viscous);
   return wheel;
 }
 
@@ -41,7 +44,7 @@ class SolidModes final : public ModesSolver {
         damping_{c.damping.mass, c.damping.stiffness},
         follows_spin_(c.inflation && !c.inflation->spin),
         spin_(std::abs(c.motion.angular_velocity.at(0.0))),
-        wheel_{body.mesh, body.sector} {
+        wheel_{body.mesh, body.sector, body.viscous} {
     if (!standing) return;
     take(0.0);
     standing_ = standing_wheel(c, wheel_.mesh, body.mass, wheel_.sector);
@@ -66,6 +69,7 @@ class SolidModes final : public ModesSolver {
     }
     for (const modal::Mode& mode : s.found.modes)
       s.damping_ratios.push_back(modal::damping_ratio(body_.mass, spin, mode, damping_));
+    take_branches<fem::SolidSector>(wheel_.viscous, body_.mass, spin, damping_, s);
     return s;
   }
 

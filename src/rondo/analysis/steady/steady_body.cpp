@@ -32,11 +32,14 @@ void add_stress_stiffening(const Case& c, SteadyBody<2>& b) {
   b.sector = fem::assemble_sector(b.mesh, b.materials, found.u);
 }
 
+/// Of the stiffness of sudden strains: between that and the stiffness of slow ones branches damp
+/// the waves.
 template <int D>
 void warn_of_critical_spin(const Case& c, SteadyBody<D>& b) {
   if (spin_of(c) == 0.0) return;
+  const fem::SectorBlocks<D> at_once = fem::with_branches<D>(b.sector, b.viscous);
   const auto found =
-      modal::critical_speeds_up_to<D>({b.sector, b.mass, b.mesh.coordinates}, std::abs(spin_of(c)));
+      modal::critical_speeds_up_to<D>({at_once, b.mass, b.mesh.coordinates}, std::abs(spin_of(c)));
   if (found.empty()) return;
   b.warnings.push_back(
       above_critical_spin(c, *std::ranges::min_element(found, {}, &modal::CriticalSpeed::spin)));

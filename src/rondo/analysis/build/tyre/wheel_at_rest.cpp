@@ -83,7 +83,8 @@ WheelAtRest inflated(const Case& c, mesh::Mesh& mesh, std::vector<fem::Material>
   rest.inflation = figures_of(wheel, found);
   rest.viscous = fem::viscous_parts<fem::SolidSector>(mesh, materials, by);
   if (!rest.viscous.empty())
-    rest.stiffest = fem::with_branches(rest.stiffest ? *rest.stiffest : rest.sector, rest.viscous);
+    rest.stiffest =
+        fem::with_branches<3>(rest.stiffest ? *rest.stiffest : rest.sector, rest.viscous);
   rest.frequencies_below = row_bound(rest.stiffest ? *rest.stiffest : rest.sector, rest.mass);
   for (fem::Material& m : materials) m.rubber.reset();
   return rest;
