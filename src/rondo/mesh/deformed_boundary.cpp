@@ -104,7 +104,7 @@ void DeformedBoundary::widen(std::size_t candidate, FieldView u,
   const Vec3 own = place(mesh_.boundary[candidate], u);
   footprint.include(own);
   for (std::size_t s = first_[candidate]; s < first_[candidate + 1]; ++s)
-    for (const std::size_t beside : {1, 3}) {
+    for (const std::size_t beside : {1U, 3U}) {
       const int other = shares_[s].nodes[(shares_[s].corner + beside) % 4];
       footprint.include(0.5 * (own + place(other, u)));
     }
