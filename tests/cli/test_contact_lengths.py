@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Contact lengths and pressures of every analysis are those of the deformed boundary: history.csv, contact.csv
 and results.h5 of one state against each other, and against the places of the nodes."""
+import csv
 import unittest
 
 import h5py
@@ -9,6 +10,7 @@ import numpy as np
 from program import ROOT, RunTest, contact, history, replaced, run, summary
 from test_crush import CRUSH
 from test_solid import WHEEL
+from test_tyre_crush import DISK as STANDING
 
 ROLLER = (ROOT / "cases" / "rubber-crush.toml").read_text()
 STEADY = (ROOT / "cases" / "steady-rolling.toml").read_text()
@@ -34,18 +36,43 @@ def corner_shares(x):
     return np.linalg.norm(share, axis=1)
 
 
-def face_shares(file, k):
-    """{node: m2} of the tread of a wheel in three dimensions, in snapshot k."""
-    x = file["mesh/coordinates"][:] + file["snapshots/displacement"][k]
+def tread_faces(file):
+    """Corners of each face of the tread of a wheel in three dimensions."""
     nodes = set(file["mesh/boundary"][:].tolist())
-    area = dict.fromkeys(nodes, 0.0)
     for cell in file["mesh/hexahedra"][:]:
         for face in ((0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):  # those round the axle
             corners = cell[list(face)]
             if nodes.issuperset(corners.tolist()):
-                for node, share in zip(corners, corner_shares(x[corners])):
-                    area[node] += share
+                yield corners
+
+
+def face_shares(file, k):
+    """{node: m2} of the tread of a wheel in three dimensions, in snapshot k."""
+    x = file["mesh/coordinates"][:] + file["snapshots/displacement"][k]
+    area = dict.fromkeys(file["mesh/boundary"][:].tolist(), 0.0)
+    for corners in tread_faces(file):
+        for node, share in zip(corners, corner_shares(x[corners])):
+            area[node] += share
     return area
+
+
+def ground_places(file, k, camber):
+    """(n, 2) m: places of all nodes along t1 and t2 from the center, in snapshot k."""
+    x = file["mesh/coordinates"][:] + file["snapshots/displacement"][k]
+    cos, sin = np.cos(file["frame/angle"][k]), np.sin(file["frame/angle"][k])
+    ahead, up = cos * x[:, 0] - sin * x[:, 1], sin * x[:, 0] + cos * x[:, 1]
+    return np.stack([ahead, np.cos(camber) * x[:, 2] - np.sin(camber) * up], axis=1)
+
+
+def footprint(file, k, touched, camber):
+    """Length and width in m of the nodes in contact and half of the edges beside them, in snapshot k."""
+    place = ground_places(file, k, camber)
+    ends = [place[node] for node in touched]
+    for corners in tread_faces(file):
+        for one, other in zip(corners, np.roll(corners, 1)):
+            if one in touched or other in touched:
+                ends.append(0.5 * (place[one] + place[other]))
+    return np.ptp(ends, axis=0)
 
 
 class ContactLengths(RunTest):
@@ -131,6 +158,85 @@ class ContactLengths(RunTest):
         self.assertGreater(self.look(face_shares, **areas), 1e-3)
         self.made(STEADY_WHEEL)
         self.assertGreater(self.look(face_shares, **areas), 1e-3)
+
+    def look_at_footprints(self, camber):
+        """Of all snapshots with contact; returns history.csv."""
+        h, rows = history(self.out), contact(self.out)
+        looked = 0
+        with h5py.File(self.out / "results.h5") as f:
+            for k, time in enumerate(f["frame/time"][:]):
+                there, row = rows["time_s"] == time, np.isclose(h["time_s"], time, rtol=1e-12, atol=0.0)
+                if not there.any() or not row.any():
+                    continue
+                looked += 1
+                found = np.array([h["footprint_length_m"][row][0], h["footprint_width_m"][row][0]])
+                touched = set(rows["node"][there].astype(int).tolist())
+                np.testing.assert_allclose(found, footprint(f, k, touched, camber), rtol=1e-11)
+                between = np.array([np.ptp(rows["x_m"][there]), np.ptp(rows["z_m"][there])])
+                edge = 2 * np.pi * 0.3 / 40  # the longest of all meshes here
+                self.assertTrue((between < found).all() and (found < between + 1.1 * edge).all(), (between, found))
+                self.assertLess(rows["area_m2"][there].sum(), found.prod())
+                self.assertAlmostEqual(h["pressure_mean_pa"][row][0] / np.average(
+                    rows["pressure_pa"][there], weights=rows["area_m2"][there]), 1.0, places=10)
+        self.assertGreater(looked, 2)
+        return h
+
+    def test_footprints_of_wheels_are_those_of_their_nodes(self):
+        """In steps in time, in steady rolling and of a wheel that stands, leaning so that a side of it is up."""
+        self.made(WHEEL, "output.history_interval=0", "motion.camber=0.05", "motion.height=[[0, 0.305], [0.004, 0.294]]")
+        h = self.look_at_footprints(0.05)
+        apart = h["contact_nodes"] == 0
+        self.assertTrue(apart.any())
+        for name in ("footprint_length_m", "footprint_width_m", "pressure_mean_pa"):
+            self.assertTrue((h[name][apart] == 0).all() and (h[name][~apart] > 0).all(), name)
+        self.made(STEADY_WHEEL, "motion.camber=0.1", "motion.height=0.298")
+        h, steady = self.look_at_footprints(0.1), summary(self.out)["steady"]
+        self.assertLess(h["footprint_width_m"].max(), 0.09)
+        for name in ("length", "width"):
+            self.assertAlmostEqual(steady[f"footprint_{name}"] / h[f"footprint_{name}_m"].mean(), 1.0, places=13)
+        self.assertAlmostEqual(steady["pressure_mean"] * h["contact_area_m2"].mean() / steady["force_y"], 1.0, places=12)
+        self.made(STANDING, "motion.camber=0.05")
+        self.look_at_footprints(0.05)
+
+    def swept(self, text):
+        """The row of results.csv of a sweep with the case as its only member."""
+        self.case(text)
+        (self.folder / "study.toml").write_text('schema = 1\nbase = "case.toml"\n[[vary]]\nkey = "ground.friction"\n'
+                                                "values = [0.3]\n")
+        done = run("sweep", self.folder / "study.toml", "-o", self.folder / "sweep", "--quiet", "--jobs", "1", "--overwrite")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(self.folder / "sweep" / "results.csv", newline="") as file:
+            (row,) = csv.DictReader(file)
+        return row
+
+    def test_sweeps_have_footprints_in_their_tables(self):
+        for text, of in ((WHEEL, "_mean"), (STEADY_WHEEL, ""), (STANDING, "")):
+            row = self.swept(text)
+            h, _ = self.made(text, "ground.friction=0.3")
+            length, width, pressure, area, load = (float(row[name]) for name in (
+                f"footprint_length{of}_m", f"footprint_width{of}_m", "pressure_mean_pa", f"contact_area{of}_m2", f"force_y{of}"))
+            if text is STANDING:
+                self.assertEqual([length, width], [h["footprint_length_m"][-1], h["footprint_width_m"][-1]])
+            else:  # means over half a run, and over the pass of a sector
+                rows = slice(len(h["time_s"]) // 2 if of else 0, None)
+                for found, name in ((length, "footprint_length_m"), (width, "footprint_width_m")):
+                    self.assertAlmostEqual(found / h[name][rows].mean(), 1.0, delta=0.02 if of else 1e-12)
+            self.assertAlmostEqual(pressure * area / load, 1.0, places=12)
+
+    def test_the_footprint_of_a_crowned_wheel_is_that_of_hertz(self):
+        """Of a sphere: its ends lie where the theory says, to the spacing of the nodes."""
+        crowned = (("inner_radius", "inner_radius = 0.1"), ("width", "width = 0.2\ncrown_radius = 0.3"),
+                   ("radial", "radial = 6\ngrading = 1.25"), ("axial", "axial = 20"), ("circumferential", "circumferential = 180"),
+                   ("increments", "increments = 4"), ("friction", "friction = 0.0"), ("poissons", "poissons_ratio = 0.3"))
+        text = STANDING
+        for beginning, line in crowned:
+            text = replaced(text, beginning, line)
+        h, _ = self.made(text, "analysis.depth=0.004")
+        radius = (0.75 * h["force_y"] * 0.3 * (1 - 0.3**2) / 5.0e6) ** (1 / 3)
+        for name, spacing in (("length", 2 * np.pi * 0.3 / 180), ("width", 0.2 / 20)):
+            ends = h[f"footprint_{name}_m"] / 2
+            np.testing.assert_allclose(ends, radius, rtol=0.0, atol=spacing)
+            self.assertGreater(ends[-1], 3 * spacing)
 
     def test_a_reduced_wheel(self):
         done = run("run", self.case(self.text), "-o", self.out, "--reduced", "--set", "output.history_interval=0")

@@ -95,6 +95,9 @@ layers = 1
             np.testing.assert_allclose(wide[name] / 0.1, plane[name], rtol=0, atol=1e-10 * size, err_msg=name)
         np.testing.assert_array_equal(wide["sticking_nodes"], 4 * plane["sticking_nodes"])
         np.testing.assert_allclose(wide["contact_area_m2"] / 0.1, plane["contact_length_m"], rtol=1e-10)
+        touches = wide["contact_nodes"] > 0
+        np.testing.assert_allclose(wide["footprint_width_m"], np.where(touches, 0.1, 0.0), rtol=1e-10)
+        np.testing.assert_allclose(wide["pressure_mean_pa"] * wide["contact_area_m2"], wide["force_y"], rtol=1e-12)
 
     def test_without_friction_it_is_steady_rolling_that_stands(self):
         """With camber, and by a load as well: the ground is at .1 m."""

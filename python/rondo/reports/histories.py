@@ -21,6 +21,7 @@ GROUPS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("contact", "Nodes in contact", ("contact_nodes", "sticking_nodes")),
     ("extent", "Length of the contact", ("contact_length_m", "stick_length_m", "slip_length_m")),
     ("area", "Area of the contact", ("contact_area_m2",)),
+    ("footprint", "Length and width of the footprint", ("footprint_length_m", "footprint_width_m")),
     ("pressure", "Largest pressure and shear", ("pressure_max_pa", "shear_max_pa")),
     ("slip", "Slip ratio", ("slip_ratio",)),
     ("height", "Height of the center", ("center_y_m",)),

@@ -73,18 +73,18 @@ bool DeformedBoundary::makes_tributaries(const Shares& shares) const {
   return true;
 }
 
+Vec3 DeformedBoundary::place(int node, FieldView u) const noexcept {
+  const std::size_t k = at(node);
+  const Vec2 plane = mesh_.coordinates[k] + Vec2{u[k][0], u[k][1]};
+  return mesh_.is_solid() ? Vec3(plane, mesh_.axial[k] + u[k][2]) : Vec3(plane);
+}
+
 /// Half of the present length of an edge, or the share of a face.
 double DeformedBoundary::now(const Share& share, FieldView u) const noexcept {
-  const auto in_plane = [&](std::size_t i) {
-    const std::size_t node = at(share.nodes[i]);
-    return mesh_.coordinates[node] + Vec2{u[node][0], u[node][1]};
-  };
-  if (!mesh_.is_solid()) return 0.5 * norm(in_plane(1) - in_plane(0));
+  if (!mesh_.is_solid())
+    return 0.5 * norm((place(share.nodes[1], u) - place(share.nodes[0], u)).plane());
   std::array<Vec3, 4> x;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    const std::size_t node = at(share.nodes[i]);
-    x[i] = Vec3(in_plane(i), mesh_.axial[node] + u[node][2]);
-  }
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] = place(share.nodes[i], u);
   return norm(face_shares(x)[share.corner]);
 }
 
@@ -95,6 +95,19 @@ double DeformedBoundary::extent(std::size_t candidate, FieldView u) const noexce
   for (std::size_t s = first_[candidate]; s < first_[candidate + 1]; ++s)
     change += now(shares_[s], u) - shares_[s].undeformed;
   return std::max(0.0, mesh_.tributary[candidate] + change);
+}
+
+void DeformedBoundary::widen(std::size_t candidate, FieldView u,
+                             Footprint& footprint) const noexcept {
+  RONDO_ASSERT(mesh_.is_solid() && candidate < mesh_.boundary.size() && u.size() == mesh_.n_nodes(),
+               candidate, u.size());
+  const Vec3 own = place(mesh_.boundary[candidate], u);
+  footprint.include(own);
+  for (std::size_t s = first_[candidate]; s < first_[candidate + 1]; ++s)
+    for (const std::size_t beside : {1U, 3U}) {
+      const int other = shares_[s].nodes[(shares_[s].corner + beside) % 4];
+      footprint.include(0.5 * (own + place(other, u)));
+    }
 }
 
 }  // namespace rondo::mesh

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Tributary length (in three dimensions area) of the contact candidates on the deformed
-/// body. The contact lengths and pressures in all results are computed with it.
+/// body. The contact lengths, footprints and pressures in all results are computed with it.
 #pragma once
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "rondo/core/field.hpp"
+#include "rondo/mesh/footprint.hpp"
 #include "rondo/mesh/mesh.hpp"
 
 namespace rondo::mesh {
@@ -24,6 +25,11 @@ class DeformedBoundary {
   /// @return [m], in three dimensions [m²]; >= 0
   [[nodiscard]] double extent(std::size_t candidate, FieldView u) const noexcept;
 
+  /// Widens a footprint by what a candidate stands for: itself and half of each edge beside it.
+  /// @pre the mesh is one in three dimensions. @param u (n) displacement in the frame of the
+  /// coordinates [m]
+  void widen(std::size_t candidate, FieldView u, Footprint& footprint) const noexcept;
+
  private:
   /// A corner of a face of the contact surface, or an end of an edge, that is a candidate.
   struct Share {
@@ -38,6 +44,7 @@ class DeformedBoundary {
   [[nodiscard]] Shares collect(std::span<const Face> nodes, std::size_t corners) const;
   [[nodiscard]] Shares find() const;
   [[nodiscard]] bool makes_tributaries(const Shares& shares) const;
+  [[nodiscard]] Vec3 place(int node, FieldView u) const noexcept;
   [[nodiscard]] double now(const Share& share, FieldView u) const noexcept;
 
   const Mesh& mesh_;

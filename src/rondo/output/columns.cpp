@@ -124,6 +124,11 @@ constexpr std::array rim{
     Column<H>{"dissipation_support", "J/m", "by the dashpots of `[rim.support]`",
               [](const H& r) { return r.balance.works.dissipation_support; }}};
 
+/// Over the deformed surface; 0: nothing touches, NaN: its area is not known.
+double mean_pressure(const H& r) {
+  return r.contact_length == 0.0 ? 0.0 : r.force.y / r.contact_length;
+}
+
 constexpr std::array solid{
     Column<H>{"force_lateral", "N/m",
               "of the ground on the wheel along t2, to the right of its heading, mean over the "
@@ -143,7 +148,18 @@ constexpr std::array solid{
               [](const H& r) { return r.moments_iso.overturning; }},
     Column<H>{"slip_angle", "rad", "`motion.slip_angle` at `time_s`",
               [](const H& r) { return r.slip_angle; }},
-    Column<H>{"center_lateral", "m", "center, along t2", [](const H& r) { return r.center.z; }}};
+    Column<H>{"center_lateral", "m", "center, along t2", [](const H& r) { return r.center.z; }},
+    Column<H>{"footprint_length_m", "m",
+              "extent along t1 of the deformed surface in contact, gaps included: from the first "
+              "to the last node with a normal force and half of the edges beside them, as "
+              "`contact_area_m2` counts them; 0 where nothing touches",
+              [](const H& r) { return r.footprint_length; }},
+    Column<H>{"footprint_width_m", "m", "likewise across, along t2",
+              [](const H& r) { return r.footprint_width; }},
+    Column<H>{"pressure_mean_pa", "Pa",
+              "`force_y` over `contact_area_m2`, in steps in time the mean force of the interval "
+              "over the area at its end; 0 where nothing touches then",
+              mean_pressure}};
 
 constexpr std::array massless{
     Column<H>{"contact_iterations", "1",

@@ -32,6 +32,7 @@ struct HistoryRecord {
   double moment_overturning = 0.0;  ///< about t1, on the ground below the center [N·m]
   GroundMoments moments_iso;        ///< about the contact centre of ISO 8855          [N·m]
   double slip_angle = 0.0;          ///< [rad]
+  double footprint_length = 0.0, footprint_width = 0.0;  ///< as of mesh::Footprint          [m]
 };
 
 /// A row of contact.csv: a node in contact in a snapshot.

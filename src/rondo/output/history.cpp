@@ -80,12 +80,17 @@ long long History::next_row() const noexcept {
   return step;
 }
 
-/// The length in the report, stretched like the boundary at nodes in contact.
-double History::contact_length(const dynamics::StepReport& step,
-                               const dynamics::State* state) const {
-  const double length = step.contact.length;
-  if (!boundary_ || length == 0.0) return length;
-  if (!state) return std::numeric_limits<double>::quiet_NaN();
+/// The length in the report, stretched like the boundary at nodes in contact, and the footprint.
+void History::measure_contact(const dynamics::StepReport& step, const dynamics::State* state,
+                              HistoryRecord& row) const {
+  row.contact_length = step.contact.length;
+  if (!boundary_ || row.contact_length == 0.0) return;
+  if (!state) {
+    row.contact_length = std::numeric_limits<double>::quiet_NaN();
+    row.footprint_length = row.footprint_width = row.contact_length;
+    return;
+  }
+  mesh::Footprint footprint(ground_, rotation(step.frame.angle));
   double undeformed = 0.0, deformed = 0.0;
   std::size_t last = setup_.mesh.boundary.size();
   for (const dynamics::ActiveContact& c : state->active) {
@@ -94,8 +99,11 @@ double History::contact_length(const dynamics::StepReport& step,
     RONDO_ASSERT(last < setup_.mesh.tributary.size(), last, setup_.mesh.tributary.size());
     undeformed += setup_.mesh.tributary[last];
     deformed += boundary_->extent(last, state->u);
+    if (features_.solid) boundary_->widen(last, state->u, footprint);
   }
-  return undeformed > 0.0 ? length * (deformed / undeformed) : length;
+  if (undeformed > 0.0) row.contact_length *= deformed / undeformed;
+  row.footprint_length = footprint.length();
+  row.footprint_width = footprint.width();
 }
 
 void History::append_probes(const dynamics::State* state, std::vector<double>& rows) const {
@@ -154,7 +162,7 @@ void History::append_row(const dynamics::StepReport& step, const dynamics::State
   r.torque = at_.angular_impulse / span;
   r.nodes = step.contact.nodes;
   r.sticking = step.contact.sticking;
-  r.contact_length = contact_length(step, state);
+  measure_contact(step, state, r);
   r.penetration = at_.penetration;
   r.slip_ratio = slip_ratio(step);
   r.balance = step.balance;

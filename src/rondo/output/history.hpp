@@ -56,8 +56,8 @@ class History {
  private:
   [[nodiscard]] double slip_ratio(const dynamics::StepReport& step) const;
   [[nodiscard]] bool is_due(double time) const noexcept;
-  [[nodiscard]] double contact_length(const dynamics::StepReport& step,
-                                      const dynamics::State* state) const;
+  void measure_contact(const dynamics::StepReport& step, const dynamics::State* state,
+                       HistoryRecord& row) const;
   void append_row(const dynamics::StepReport& step, const dynamics::State* state,
                   std::vector<double>& rows);
   void append_probes(const dynamics::State* state, std::vector<double>& rows) const;

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "rondo/mesh/disk.hpp"
@@ -95,6 +97,38 @@ TEST(DeformedBoundary, OfAWheelItIsTheShareOfTheDeformedFaces) {
     EXPECT_EQ(boundary.extent(k, still), mesh.tributary[k]);
   const double all = undeformed(mesh);
   EXPECT_NEAR(sum_of_extents(mesh, larger), 1.5625 * all, 1e-14);
+}
+
+/// Two nodes beside each other along the axle, of a wheel that is stretched, turned and leans.
+TEST(DeformedBoundary, AFootprintHasHalfOfTheEdgesBesideItsNodes) {
+  const Mesh mesh =
+      make_wheel({.disk = disk(), .width = 0.09, .axial = 3, .crown_radius = {}, .grooves = {}});
+  std::vector<Vec3> larger;
+  const std::vector<Vec2> plane = stretched(mesh, 1.25, 1.25);
+  for (std::size_t i = 0; i < plane.size(); ++i)
+    larger.emplace_back(plane[i], 0.25 * mesh.axial[i]);
+  const Complex turn = rotation(0.3);
+  const double camber = -0.2;
+  Footprint footprint(GroundFrame(camber), turn);
+  EXPECT_EQ(footprint.length(), 0.0) << "nothing touches";
+  const auto place = [&](std::size_t k) {
+    return turn * mesh.coordinates[static_cast<std::size_t>(mesh.boundary[k])];
+  };
+  std::size_t lowest = 0;
+  for (std::size_t k = 0; k < mesh.boundary.size(); ++k)
+    if (place(k).y < place(lowest).y) lowest = k;
+  const DeformedBoundary boundary(mesh);
+  for (std::size_t k = 0; k < mesh.boundary.size(); ++k) {
+    const double z = mesh.axial[static_cast<std::size_t>(mesh.boundary[k])];
+    if (norm(place(k) - place(lowest)) < 1e-9 && z > 0.0) boundary.widen(k, larger, footprint);
+  }
+  const Complex edge = rotation(std::numbers::pi / 12.0);
+  const Vec2 at = 1.25 * place(lowest), ahead = 0.5 * (at + edge * at),
+             behind = 0.5 * (at + conj(edge) * at);
+  EXPECT_NEAR(footprint.length(), std::abs(ahead.x - behind.x), 1e-14);
+  // The nodes are at .015 and .045 m, half of an edge reaches to 0, before all are stretched.
+  const double above = std::max(ahead.y, behind.y) - at.y;
+  EXPECT_NEAR(footprint.width(), std::cos(camber) * 1.25 * 0.045 - std::sin(camber) * above, 1e-14);
 }
 
 }  // namespace rondo::mesh::deformed_boundary_test

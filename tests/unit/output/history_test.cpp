@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 #include "rondo/analysis/build/build.hpp"
@@ -79,6 +80,36 @@ TEST(History, TheContactLengthIsThatOfTheDeformedBoundary) {
   EXPECT_NEAR(value(history.columns(), row, "contact_length_m"), 1.1 * step.contact.length, 1e-15);
   history.observe(step_of(b, 2, 1.0), nullptr, blind);
   EXPECT_EQ(value(history.columns(), blind, "contact_length_m"), 0.0) << "nothing touches";
+}
+
+/// Of a wheel in three dimensions, at a row without and with the displacements.
+TEST(History, TheFootprintIsThatOfTheRow) {
+  const Built b = built({"output.history_interval=0", "disk.width=0.1", "ground.profile=flat",
+                         "ground.fillet=0", "motion.height=0.4"});
+  dynamics::StepReport step = step_of(b, 1, 1.0);
+  dynamics::State state(b.setup.model);
+  for (std::size_t k = 0; k < b.setup.mesh.boundary.size(); ++k) {
+    const auto node = static_cast<std::size_t>(b.setup.mesh.boundary[k]);
+    dynamics::ActiveContact contact;
+    contact.candidate = k;
+    contact.impulse = {b.setup.mesh.coordinates[node].y < -0.28 ? 1.0 : 0.0, 0.0, 0.0};
+    state.active.push_back(contact);
+    if (contact.impulse.x > 0.0) step.contact.length += b.setup.mesh.tributary[k];
+  }
+  History history(b.c, b.setup);
+  std::vector<double> blind, row;
+  history.observe(step, nullptr, blind);
+  step.step = 2;
+  history.observe(step, &state, row);
+  const std::vector<ColumnLabel> columns = history.columns();
+  for (const char* name : {"footprint_length_m", "footprint_width_m", "pressure_mean_pa"})
+    EXPECT_TRUE(std::isnan(value(columns, blind, name))) << name;
+  // Rows of nodes at ±15 and 0 degrees; half of the edges reach to places half way to ±30 degrees.
+  EXPECT_NEAR(value(columns, row, "footprint_length_m"),
+              0.3 * (std::sin(std::numbers::pi / 12.0) + std::sin(std::numbers::pi / 6.0)), 1e-14);
+  EXPECT_NEAR(value(columns, row, "footprint_width_m"), 0.1, 1e-15);
+  EXPECT_NEAR(value(columns, row, "pressure_mean_pa"), 2.0 / b.setup.model.dt / step.contact.length,
+              1e-6);
 }
 
 TEST(History, ForcesAreMeansOverTheIntervalAndPenetrationItsLargest) {

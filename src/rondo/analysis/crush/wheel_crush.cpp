@@ -148,7 +148,7 @@ void WheelCrush::describe(Json& j) const {
 }
 
 WheelCrushSums WheelCrush::append(int k, Recorder& recorder) {
-  const WheelCrushSums sums = record_->sum_up();
+  const WheelCrushSums sums = record_->sum_up(GroundFrame(case_.motion.camber));
   append_row({path_, k, floor_of(case_), GroundFrame(case_.motion.camber), wheel_->state(), sums},
              recorder.rows());
   recorder.rows_added();

@@ -49,6 +49,8 @@ HistoryRecord record_of(const R& r) {
   h.nodes = r.sums.nodes;
   h.sticking = r.sums.sticking;
   h.contact_length = r.sums.area;
+  h.footprint_length = r.sums.length;
+  h.footprint_width = r.sums.width;
   h.penetration = s.penetration;
   const statics::CrushWorks& w = s.works;
   h.balance.strain = w.strain;
@@ -83,20 +85,24 @@ std::size_t WheelCrushRecord::candidate_of(std::size_t pair) const {
   return candidate_of_node_[h.body().stiffness.node(row, h.wrapped(p.sample))];
 }
 
-WheelCrushSums WheelCrushRecord::sum_up() const {
+WheelCrushSums WheelCrushRecord::sum_up(const GroundFrame& ground) const {
   const statics::StandingState& state = wheel_.state();
   const Field u(state.nodes);
+  mesh::Footprint footprint(ground, rotation(0.0));
   WheelCrushSums s;
   for (std::size_t j = 0; j < state.solution.status.size(); ++j) {
     const statics::NodeVector<3> r = force_of(state, j);
     if (!(r[0] > 0.0)) continue;
     const double area = boundary_.extent(candidate_of(j), u);
+    boundary_.widen(candidate_of(j), u, footprint);
     ++s.nodes;
     s.sticking += sticks(state, j) ? 1 : 0;
     s.area += area;
     s.pressure = std::max(s.pressure, r[0] / area);
     s.shear = std::max(s.shear, r.tail<2>().norm() / area);
   }
+  s.length = footprint.length();
+  s.width = footprint.width();
   return s;
 }
 

@@ -15,6 +15,7 @@ namespace rondo::study {
 struct WheelCrushSums {
   int nodes = 0, sticking = 0;
   double area = 0.0;                   ///< deformed [m²]
+  double length = 0.0, width = 0.0;    ///< of the footprint [m]
   double pressure = 0.0, shear = 0.0;  ///< largest  [Pa]
 };
 
@@ -33,7 +34,8 @@ class WheelCrushRecord {
   /// Both must outlive it.
   WheelCrushRecord(const mesh::Mesh& mesh, const statics::StandingWheel& wheel);
 
-  [[nodiscard]] WheelCrushSums sum_up() const;
+  /// @param ground of the camber
+  [[nodiscard]] WheelCrushSums sum_up(const GroundFrame& ground) const;
   /// @param before (n) displacement one increment earlier [m]
   void fill(const WheelCrushRow& row, const std::vector<Vec3>& before, Snapshot& snapshot) const;
 

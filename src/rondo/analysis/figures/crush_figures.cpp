@@ -43,6 +43,9 @@ constexpr std::array wheel_columns{
     FigureColumn{"moment_overturning_iso", "N·m", "likewise"},
     FigureColumn{"torque", "N·m", "about the center, at the end"},
     FigureColumn{"contact_area_m2", "m2", "at the end"},
+    FigureColumn{"footprint_length_m", "m", "extent of the contact along the heading, at the end"},
+    FigureColumn{"footprint_width_m", "m", "likewise across"},
+    FigureColumn{"pressure_mean_pa", "Pa", "force_y over contact_area_m2"},
     FigureColumn{"pressure_max_pa", "Pa", "at the end"},
     FigureColumn{"shear_max_pa", "Pa", "at the end"},
     FigureColumn{"strain", "J", "strain energy at the end"},
@@ -63,7 +66,8 @@ std::vector<double> wheel_figures_of(const std::filesystem::path& directory,
   for (const char* name :
        {"depth_m", "force_x", "force_y", "force_lateral", "moment_aligning", "moment_overturning",
         "moment_aligning_iso", "moment_overturning_iso", "torque", "contact_area_m2",
-        "pressure_max_pa", "shear_max_pa", "strain", "dissipation_friction", "center_y_m"})
+        "footprint_length_m", "footprint_width_m", "pressure_mean_pa", "pressure_max_pa",
+        "shear_max_pa", "strain", "dissipation_friction", "center_y_m"})
     figures.push_back(column(history, name, file).back());
   add_figures_of_all(io::read_json(directory / "run.json"), figures);
   return figures;

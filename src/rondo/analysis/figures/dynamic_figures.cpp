@@ -63,6 +63,10 @@ constexpr std::array dynamic_solid_columns{
                  "mean aligning moment over the mean lateral force; none where that is round-off"},
     FigureColumn{"contact_area_mean_m2", "m2", "mean over the window"},
     FigureColumn{"contact_area_peak_m2", "m2", "largest in the window"},
+    FigureColumn{"footprint_length_mean_m", "m",
+                 "extent of the contact along t1, mean over the window"},
+    FigureColumn{"footprint_width_mean_m", "m", "likewise along t2"},
+    FigureColumn{"pressure_mean_pa", "Pa", "force_y_mean over contact_area_mean_m2"},
     FigureColumn{"slip_angle_mean", "rad", "mean over the window"},
     FigureColumn{"slip_ratio_mean", "1", "mean over the window"},
     FigureColumn{"center_y_mean", "m", "height of the center along n, mean over the window"},
@@ -118,14 +122,17 @@ std::vector<double> solid_figures_of(const std::filesystem::path& directory, con
   add_courses(rows, std::array{"force_x", "force_y", "force_lateral", "torque", "moment_aligning"},
               figures);
   const double lateral = mean(rows.of("force_lateral")),
-               aligning = mean(rows.of("moment_aligning"));
-  const bool pulls = std::abs(lateral) > round_off * std::abs(mean(rows.of("force_y")));
+               aligning = mean(rows.of("moment_aligning")), load = mean(rows.of("force_y"));
+  const bool pulls = std::abs(lateral) > round_off * std::abs(load);
   const Intervals area = rows.of("contact_area_m2");
-  figures.insert(figures.end(),
-                 {mean(rows.of("moment_overturning")), mean(rows.of("moment_aligning_iso")),
-                  mean(rows.of("moment_overturning_iso")),
-                  pulls ? aligning / lateral : std::numeric_limits<double>::quiet_NaN(), mean(area),
-                  peak(area), mean(rows.of("slip_angle"))});
+  const double mean_area = mean(area);
+  figures.insert(
+      figures.end(),
+      {mean(rows.of("moment_overturning")), mean(rows.of("moment_aligning_iso")),
+       mean(rows.of("moment_overturning_iso")),
+       pulls ? aligning / lateral : std::numeric_limits<double>::quiet_NaN(), mean_area, peak(area),
+       mean(rows.of("footprint_length_m")), mean(rows.of("footprint_width_m")),
+       mean_area == 0.0 ? 0.0 : load / mean_area, mean(rows.of("slip_angle"))});
   add_motion(rows, directory, figures);
   return figures;
 }

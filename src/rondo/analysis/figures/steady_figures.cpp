@@ -53,6 +53,9 @@ constexpr std::array steady_solid_columns{
     FigureColumn{"cornering_stiffness", "N/rad", "-∂force_lateral/∂slip_angle there"},
     FigureColumn{"stick_share", "1", "of the area of contact, what sticks"},
     FigureColumn{"contact_area_m2", "m2", "mean over a sector's pass"},
+    FigureColumn{"footprint_length_m", "m", "extent of the contact along the heading, likewise"},
+    FigureColumn{"footprint_width_m", "m", "likewise across"},
+    FigureColumn{"pressure_mean_pa", "Pa", "force_y over contact_area_m2"},
     FigureColumn{"pressure_max_pa", "Pa", "largest"},
     FigureColumn{"shear_max_pa", "Pa", "largest"},
     FigureColumn{"friction_power", "W", "taken by friction"},
@@ -95,6 +98,7 @@ std::vector<double> steady_figures_of(const Json& run, bool solid) {
   }
   figures.push_back(stick / (stick + slip));
   figures.push_back(stick + slip);
+  if (solid) add({"footprint_length", "footprint_width", "pressure_mean"});
   add({"pressure_max", "shear_max"});
   figures.push_back(number(steady.value("power", Json::object()), "friction"));
   add({"scheme_share"});

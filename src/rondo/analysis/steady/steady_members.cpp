@@ -224,6 +224,17 @@ constexpr JsonMember<SteadyFigures> figures_rows[] = {
      [](const SteadyFigures& k) { return plane_only(k, k.mean.slip); }},
     {"slip_area", "number", "m2", "Sum of the deformed areas of the nodes of a 3D wheel that slip",
      [](const SteadyFigures& k) { return solid_only(k, k.mean.slip); }},
+    {"footprint_length", "number", "m",
+     "Extent along its heading of the deformed surface of a 3D wheel in contact, as "
+     "`footprint_length_m` in `history.csv`",
+     [](const SteadyFigures& k) { return solid_only(k, k.mean.length); }},
+    {"footprint_width", "number", "m", "Likewise across: `footprint_width_m`",
+     [](const SteadyFigures& k) { return solid_only(k, k.mean.width); }},
+    {"pressure_mean", "number", "Pa",
+     "`force_y` over the deformed area of a 3D wheel in contact, `stick_area` + `slip_area`",
+     [](const SteadyFigures& k) {
+       return solid_only(k, k.s.forces.normal / (k.mean.stick + k.mean.slip));
+     }},
     {"pressure_max", "number", "Pa", "Largest pressure of all samples, over the deformed boundary",
      [](const SteadyFigures& k) -> Json { return k.mean.pressure; }},
     {"shear_max", "number", "Pa", "Largest shear of all samples, over the deformed boundary",

@@ -14,7 +14,6 @@
 #include "rondo/core/ground_frame.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
-#include "rondo/mesh/deformed_boundary.hpp"
 
 namespace rondo::study {
 namespace {
@@ -235,7 +234,21 @@ void SteadyState<D>::measure_extents() {
     unroll(u_, place, 1.0, u);
     for (std::size_t j = 0; j < extent_.size(); ++j)
       if (const Where w = where(j); w.place == place) extent_[j] = boundary.extent(w.candidate, u);
+    if constexpr (D == 3) measure_footprint(place, boundary, u);
   }
+}
+
+/// @param u at the place, in the turning frame
+template <int D>
+void SteadyState<D>::measure_footprint(int place, const mesh::DeformedBoundary& boundary,
+                                       FieldView u) {
+  mesh::Footprint footprint(GroundFrame(case_.motion.camber),
+                            rotation(spin() * (place * sample_time())));
+  for (std::size_t j = 0; j < extent_.size(); ++j)
+    if (const Where w = where(j); w.place == place && force(j)[0] > 0.0)
+      boundary.widen(w.candidate, u, footprint);
+  sums_[at(place)].length = footprint.length();
+  sums_[at(place)].width = footprint.width();
 }
 
 template <int D>
@@ -246,6 +259,10 @@ void SteadyState<D>::sum_up() {
     if (!(force(j)[0] > 0.0)) continue;
     add(j, 1.0, sums_[at(where(j).place)]);
     add(j, share, mean_);
+  }
+  for (const SteadySums& s : sums_) {
+    mean_.length += share * s.length;
+    mean_.width += share * s.width;
   }
 }
 
@@ -266,6 +283,8 @@ HistoryRecord SteadyState<D>::record(int place, const Snapshot& now) const {
   h.nodes = s.nodes;
   h.sticking = s.sticking;
   h.contact_length = s.stick + s.slip;
+  h.footprint_length = s.length;
+  h.footprint_width = s.width;
   h.penetration = s.penetration;
   h.slip_ratio = slip_ratio();
   h.slip_angle = drive_.slip_angle;

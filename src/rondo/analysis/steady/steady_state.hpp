@@ -10,6 +10,7 @@
 
 #include "rondo/analysis/steady/slip_error.hpp"
 #include "rondo/analysis/steady/steady_body.hpp"
+#include "rondo/mesh/deformed_boundary.hpp"
 #include "rondo/output/columns.hpp"
 #include "rondo/statics/steady/finite_rolling.hpp"
 
@@ -24,6 +25,7 @@ struct SteadySums {
   double friction = 0.0;               ///< power taken by friction                     [W]
   double speed = 0.0;                  ///< largest slip                              [m/s]
   double penetration = 0.0;            ///< largest                                     [m]
+  double length = 0.0, width = 0.0;    ///< of the footprint, in space only             [m]
 };
 
 template <int D>
@@ -70,6 +72,7 @@ class SteadyState final : public RolledState {
   [[nodiscard]] std::string resistance_note() const;
   void sum_up();
   void measure_extents();
+  void measure_footprint(int place, const mesh::DeformedBoundary& boundary, FieldView u);
   void add(std::size_t pair, double share, SteadySums& sums) const;
   void unroll(const Eigen::MatrixXd& field, int place, double by, Field& nodes) const;
   [[nodiscard]] int sense() const noexcept { return spin() > 0.0 ? 1 : -1; }
