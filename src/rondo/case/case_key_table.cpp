@@ -76,14 +76,16 @@ bool has_band(const Case& c) {
            return region.law.loss_factor > 0.0;
          });
 }
-bool region_has_branches(const Case& c, std::size_t k) {
-  return c.regions[k].law.viscosity != c.law.viscosity;
-}
 bool region_has_loss_factor(const Case& c, std::size_t k) {
   return c.regions[k].law.loss_factor != c.law.loss_factor;
 }
 bool region_is_rubber(const Case& c, std::size_t k) {
   return c.regions[k].law.is_rubber();
+}
+/// A linear region beside rubber has none.
+bool region_has_branches(const Case& c, std::size_t k) {
+  return region_is_rubber(c, k) ||
+         (!has_rubber_law(c) && c.regions[k].law.viscosity != c.law.viscosity);
 }
 /// If all materials are linear, the integration of [material] applies to all.
 bool region_has_integration(const Case& c, std::size_t k) {
