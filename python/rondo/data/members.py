@@ -67,7 +67,7 @@ MEMBERS: dict[str, tuple[str, str, str]] = {
     "jacobian_min_cell": ("", "", "Cell of the smallest J, as for the strain"),
     "jacobian_min_place": ("m", "m", "Middle of the undeformed cell of the smallest J"),
     "jacobian_min_time": ("s", "s", "Time of the smallest J, as for the strain"),
-    "integration_relative": ("", "", "Only with rubber at finite strain or nonlinear cords: magnitude of integration of history.csv at the last step; a warning above 0.01"),
+    "integration_relative": ("", "", "Only with rubber at finite strain, nonlinear cords or viscous materials: magnitude of integration of history.csv at the last step; a warning above 0.01"),
     "inflation": ("", "", "The equilibrium of a wheel with [inflation]"),
     "inflation.share": ("", "", "Share of pressure, spin and mounting that was reached; 1: all"),
     "inflation.pressure_pa": ("Pa", "Pa", "Pressure of the air"),

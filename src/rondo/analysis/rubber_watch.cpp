@@ -13,7 +13,8 @@ namespace {
 
 constexpr JsonMember<double> rubber_rows[] = {
     {"integration_relative", "number", "",
-     "Only with rubber at finite strain or nonlinear cords: magnitude of `integration` of "
+     "Only with rubber at finite strain, nonlinear cords or viscous materials: magnitude of "
+     "`integration` of "
      "`history.csv` at the last step; a warning above 0.01",
      [](const double& relative) -> Json { return relative; }},
 };

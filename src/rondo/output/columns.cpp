@@ -179,7 +179,7 @@ constexpr std::array rubber{
     Column<H>{"stored_energy", "J/m",
               "of the elements, cords and air at `time_s`, viscous branches included",
               [](const H& r) { return r.material.stored_energy; }},
-    Column<H>{"dissipation_viscous", "J/m", "by the branches of `material.viscosity`",
+    Column<H>{"dissipation_viscous", "J/m", "by the branches of viscous materials",
               [](const H& r) { return r.material.dissipation_viscous; }},
     Column<H>{"integration", "1",
               "(`internal_work` + `window_work` − `stored_energy` − `dissipation_viscous`) over "
