@@ -43,6 +43,8 @@ constexpr Allowed with(Allowed allowed, std::string_view also) {
   return allowed;
 }
 
+constexpr Allowed any_band = with(any, "in Hz, as [5.0, 500.0] beside a loss_factor");
+
 constexpr Allowed over_increments(Allowed allowed) {
   allowed.of_increments = true;
   return allowed;
@@ -307,7 +309,7 @@ constexpr CaseKey keys[] = {
      "Loss factor tan δ of all frequencies within `loss_band`, instead of [[material.viscosity]]: "
      "3 to 8 branches are fitted, and `rondo check` tells how well. The modulus is that of strains "
      "slower than the band; it rises with the frequency"},
-    {"material.loss_band", "Hz", FIELD(law.loss_band), any,
+    {"material.loss_band", "Hz", FIELD(law.loss_band), any_band,
      required.if_(has_band, "required with a loss factor"),
      "Lowest and highest frequency at which the loss factor is met. A point of a rolling wheel is "
      "strained at its turns a second and, in the footprint, at up to some hundred times as many"},

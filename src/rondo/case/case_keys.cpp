@@ -253,7 +253,8 @@ std::string allowed_text(const CaseKey& key) {
   if (type == history) return table_text(key.allowed, range);
   if (type == integers)
     return fmt::format("[i, ...], each {}", range_text(key.allowed.range, true));
-  if (type != integer && type != number) return std::string(words_of(type).allowed);
+  if (type != integer && type != number)
+    return std::string(words_of(type).allowed) + (also.empty() ? "" : "; ") + std::string(also);
   if (also.empty()) return range;
   return range + (also.starts_with("<") ? " and " : "; ") + std::string(also);
 }

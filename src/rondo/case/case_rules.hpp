@@ -22,7 +22,7 @@ void check_materials(CaseValues& in, Case& c);
 /// Checks that rubber does not start in steady rolling, and sets its default of time.safety.
 void check_rubber(CaseValues& in, Case& c);
 /// Where branches of materials at small strain are not understood.
-void check_viscosity(CaseValues& in, const Case& c);
+void check_viscosity(CaseValues& in, Case& c);
 
 /// Rules of a wheel in three dimensions and of combinations that it excludes; for a plane body,
 /// checks that it has no key of such a wheel.

@@ -27,6 +27,7 @@ constexpr std::array steady_columns{
     FigureColumn{"pressure_max_pa", "Pa", "largest"},
     FigureColumn{"shear_max_pa", "Pa", "largest"},
     FigureColumn{"friction_power", "W/m", "taken by friction"},
+    FigureColumn{"material_power", "W/m", "taken by viscous materials"},
     FigureColumn{"scheme_share", "1", scheme_share},
     FigureColumn{"energy_residual_relative", "1", "of the balance of powers"},
     FigureColumn{"contact_residual_max", "1", "of the contact law"},
@@ -59,6 +60,7 @@ constexpr std::array steady_solid_columns{
     FigureColumn{"pressure_max_pa", "Pa", "largest"},
     FigureColumn{"shear_max_pa", "Pa", "largest"},
     FigureColumn{"friction_power", "W", "taken by friction"},
+    FigureColumn{"material_power", "W", "taken by viscous materials"},
     FigureColumn{"scheme_share", "1", scheme_share},
     FigureColumn{"energy_residual_relative", "1", "of the balance of powers"},
     FigureColumn{"contact_residual_max", "1", "of the contact law"},
@@ -100,7 +102,8 @@ std::vector<double> steady_figures_of(const Json& run, bool solid) {
   figures.push_back(stick + slip);
   if (solid) add({"footprint_length", "footprint_width", "pressure_mean"});
   add({"pressure_max", "shear_max"});
-  figures.push_back(number(steady.value("power", Json::object()), "friction"));
+  const Json power = steady.value("power", Json::object());
+  for (const char* taker : {"friction", "viscosity"}) figures.push_back(number(power, taker));
   add({"scheme_share"});
   add_figures_of_all(run, figures);
   return figures;

@@ -30,7 +30,7 @@ std::string first_viscous(const Case& c, Viscous kind) {
 
 }  // namespace
 
-void check_viscosity(CaseValues& in, const Case& c) {
+void check_viscosity(CaseValues& in, Case& c) {
   if (in.has("material.loss_band") && first_viscous(c, Viscous::by_factor).empty())
     in.fault("material.loss_band", "is the band of a loss factor, and there is none",
              "material.loss_factor, or that of a region, beside it");
@@ -43,6 +43,8 @@ void check_viscosity(CaseValues& in, const Case& c) {
     return;
   }
   const std::string key = first_viscous(c, Viscous::any);
+  if (c.analysis.kind == AnalysisKind::crush)
+    c.warnings.push_back(key + " has no effect in a crush, which is of slow strains");
   if (c.analysis.kind == AnalysisKind::dynamic && c.initial.state == InitialState::steady_rolling)
     in.fault("initial.state",
              "a start in steady rolling does not know how far viscous branches have relaxed",
