@@ -133,6 +133,27 @@ history_interval = 1e-4
             for name in whole:
                 self.assertEqual(whole[name][-1], again[name][-1], name)
 
+    def test_what_a_run_wrote_is_read_again(self):
+        """Of linear materials and rubber, whose regions differ by a factor or by branches."""
+        small = replaced(replaced(CYLINDER, "radial", "radial = 4"), "circumferential", "circumferential = 60")
+        rubber = tyre(3000.0).replace("sectors = 60", "sectors = 12")
+        for text, own in ((small, "layers = [3, 4]"), (rubber, "surface = 'carcass'")):
+            for words in (LOSS, branch(0.01)):
+                for region in ("loss_factor = 0.3", "loss_factor = 0", "viscosity = [[0.2, 0.01]]", "viscosity = []"):
+                    band = LOSS[2:] if region == "loss_factor = 0.3" and words != LOSS else ()
+                    case = self.case(text if text == small else text.replace("[[cords]]", f"""[[material.region]]
+{own.replace("'", '"')}
+{region}
+[[cords]]""", 1))
+                    more = ("--set", f"material.region=[{{{own}, {region}}}]") if text == small else ()
+                    done = run("run", case, "-o", self.out, "--overwrite", "--quiet", *words, *band, *more, "--set", "analysis.accept_scheme_power=true")
+                    self.assertEqual(done.returncode, 0, (done.stderr, words, region))
+                    once = (self.out / "case.toml").read_text()
+                    again = run("run", self.out / "case.toml", "-o", self.folder / "again", "--overwrite", "--quiet")
+                    self.assertEqual(again.returncode, 0, (again.stderr, words, region))
+                    self.assertEqual(once, (self.folder / "again" / "case.toml").read_text())
+                    self.assertEqual(summary(self.out)["steady"]["power"], summary(self.folder / "again")["steady"]["power"])
+
     def test_without_a_lateral_contraction_a_wheel_is_the_plane_disk(self):
         """And the shares of its regions add up."""
         plane = replaced(replaced(CYLINDER, "radial", "radial = 8"), "circumferential", "circumferential = 240")
@@ -168,7 +189,7 @@ history_interval = 1e-4
         """The loss factor is .15 to 2.4 % within the band, and the frequency is as the stiffness there."""
         ring = replaced(replaced(CYLINDER[:CYLINDER.index("[analysis]")], "radial", "radial = 6"), "circumferential",
                         "circumferential = 48")
-        ring = replaced(replaced(ring, "grading", None), "youngs_modulus", "youngs_modulus = 1e4")
+        ring = replaced(replaced(ring, "grading", None), "youngs_modulus", "youngs_modulus = 1e6")
         ring = replaced(ring, "speed", "speed = 1.0\nheight = 0.1") + "[time]\nend = 1.0\n"
         wide = ring.replace("inner_radius = 0.01", "inner_radius = 0.01\nwidth = 0.02").replace("radial = 6", "radial = 6\naxial = 2")
         for text in (ring, wide):
@@ -181,7 +202,7 @@ history_interval = 1e-4
                     slow = table["frequency_hz"]
             found = table["frequency_hz"]
             self.assertTrue((found > 5.0).all() and (found < 500.0).all(), found)
-            np.testing.assert_allclose(table["damping_ratio"], 0.075, rtol=0.05)
+            np.testing.assert_allclose(table["damping_ratio"], 0.075, rtol=0.1)
             self.assertTrue(((found / slow) ** 2 > 1.15).all() and ((found / slow) ** 2 < 1.9).all())
 
     def test_check_tells_the_loss_factor(self):

@@ -15,7 +15,6 @@ constexpr Allowed positive{{0.0, infinity, true, false}};
 constexpr Allowed not_negative{{0.0, infinity, false, false}};
 constexpr Allowed poisson{{-1.0, 0.5, true, true}};
 constexpr Allowed share{{0.0, 1.0, true, false}};
-constexpr Allowed loss{{0.0, 1.0, true, true}};
 constexpr Allowed loss_or_none{{0.0, 1.0, false, true}};
 constexpr double right_angle = 0.5 * std::numbers::pi;
 constexpr Allowed less_than_upright{{-right_angle, right_angle, true, true}};
@@ -86,8 +85,9 @@ bool region_is_rubber(const Case& c, std::size_t k) {
 }
 /// A linear region beside rubber has none.
 bool region_has_branches(const Case& c, std::size_t k) {
-  return region_is_rubber(c, k) ||
-         (!has_rubber_law(c) && c.regions[k].law.viscosity != c.law.viscosity);
+  const MaterialLaw& law = c.regions[k].law;
+  if (law.viscosity != c.law.viscosity) return law.is_rubber() || !has_rubber_law(c);
+  return law.is_rubber() && law.loss_factor == 0.0;
 }
 /// If all materials are linear, the integration of [material] applies to all.
 bool region_has_integration(const Case& c, std::size_t k) {
@@ -304,10 +304,11 @@ constexpr CaseKey keys[] = {
      optional.of(in_motion_but_written),
      "\"centrifugal\": the stress of the stationary spin at the initial angular velocity stiffens "
      "the body, so that it does not soften as it spins. \"none\": small strain alone"},
-    {"material.loss_factor", "-", FIELD(law.loss_factor), loss,
+    {"material.loss_factor", "-", FIELD(law.loss_factor), loss_or_none,
      optional.if_(has_loss_factor, "none"),
      "Loss factor tan δ of all frequencies within `loss_band`, instead of [[material.viscosity]]: "
-     "3 to 8 branches are fitted, and `rondo check` tells how well. The modulus is that of strains "
+     "up to 8 branches are fitted, and `rondo check` tells how well; 0: none. The modulus is that "
+     "of strains "
      "slower than the band; it rises with the frequency"},
     {"material.loss_band", "Hz", FIELD(law.loss_band), any_band,
      required.if_(has_band, "required with a loss factor"),

@@ -82,9 +82,10 @@ double take_branches(std::span<const fem::ViscousPart<Stiffness>> parts,
     stiffer += fem::branch_modulus(part.branches, mode.omega).real() * v / forms.elastic;
   }
   const Complexes root = root_near(f, {0.0, mode.omega * std::sqrt(stiffer.real())});
-  if (!(root.imag() > 0.0)) return none;
-  mode.omega = root.imag();
-  return -root.real() / std::abs(root);
+  constexpr double round_off_of_real = 1e-9;
+  if (!(root.imag() > round_off_of_real * std::abs(root))) return none;
+  mode.omega = std::abs(root);
+  return -root.real() / mode.omega;
 }
 
 template double take_branches(std::span<const fem::ViscousPart<fem::SectorStiffness>>,

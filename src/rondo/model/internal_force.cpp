@@ -72,7 +72,9 @@ class ViscousStiffness final : public InternalForce {
     std::swap(force_, before_);
     apply(model_.stiffness, u, force_, model_.threads);
     const double elastic = elastic_energy(u);
-    branches_.move(u, force_);
+    branches_.move(u);
+    const std::span<const Vec2> more = branches_.force();
+    for_free_nodes(model_, [&](std::size_t k) { force_[k] += more[k]; });
     add_work(u);
     loss_.add(branches_.lost());
     report_ = {.internal_work = work_.value(),
@@ -87,9 +89,13 @@ class ViscousStiffness final : public InternalForce {
                                         std::span<const Vec2>) const noexcept override {
     return half_step_energy_;
   }
+  /// Of K u alone: the branches have their own loss.
   void damping(std::span<Vec2> out) noexcept override {
     const double rate = model_.stiffness_damping / model_.dt;
-    for_free_nodes(model_, [&](std::size_t k) { out[k] = rate * (force_[k] - before_[k]); });
+    const std::span<const Vec2> now = branches_.force(), before = branches_.force_before();
+    for_free_nodes(model_, [&](std::size_t k) {
+      out[k] = rate * ((force_[k] - now[k]) - (before_[k] - before[k]));
+    });
   }
   [[nodiscard]] MaterialReport material() const noexcept override { return report_; }
 

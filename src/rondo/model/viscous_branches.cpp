@@ -13,7 +13,13 @@ namespace rondo::dynamics {
 template <class Stiffness>
 ViscousBranches<Stiffness>::ViscousBranches(Parts parts, std::span<const Vec> u, double dt,
                                             int threads)
-    : dt_(dt), threads_(threads), u_(u.begin(), u.end()), strain_(u.size()), force_(u.size()) {
+    : dt_(dt),
+      threads_(threads),
+      u_(u.begin(), u.end()),
+      strain_(u.size()),
+      force_(u.size()),
+      total_(u.size()),
+      total_before_(u.size()) {
   RONDO_DEMAND(dt > 0.0, dt);
   for (const fem::ViscousPart<Stiffness>& part : parts)
     for (const fem::ViscousBranch& b : part.branches)
@@ -33,8 +39,8 @@ void ViscousBranches<Stiffness>::product(const Stiffness& v, std::span<const Vec
 /// By the midpoint rule q⁺ = [(1 - a) q + a (u + u⁺)]/(1 + a), a = Δt/2τ; the loss is Δt r/τ ēᵀ V ē
 /// of the mean ē of u - q.
 template <class Stiffness>
-void ViscousBranches<Stiffness>::move(std::span<const Vec> u, std::span<Vec> force) noexcept {
-  RONDO_ASSERT(u.size() == u_.size() && force.size() == u.size(), u.size(), u_.size());
+void ViscousBranches<Stiffness>::move(std::span<const Vec> u) noexcept {
+  RONDO_ASSERT(u.size() == u_.size(), u.size(), u_.size());
   stored_ = lost_ = 0.0;
   for (Branch& b : branches_) {
     const double a = 0.5 * dt_ / b.time, kept = (1.0 - a) / (1.0 + a), taken = a / (1.0 + a);
@@ -45,7 +51,6 @@ void ViscousBranches<Stiffness>::move(std::span<const Vec> u, std::span<Vec> for
     product(b.stiffness, strain_, force_);
     double energy = 0.0, mean = 0.0;
     for (std::size_t k = 0; k < u.size(); ++k) {
-      force[k] += b.modulus * force_[k];
       energy += dot(strain_[k], force_[k]);
       mean += dot(b.strain[k] + strain_[k], b.force[k] + force_[k]);
     }
@@ -55,6 +60,15 @@ void ViscousBranches<Stiffness>::move(std::span<const Vec> u, std::span<Vec> for
     std::swap(b.force, force_);
   }
   std::ranges::copy(u, u_.begin());
+  std::swap(total_, total_before_);
+  add_up();
+}
+
+template <class Stiffness>
+void ViscousBranches<Stiffness>::add_up() noexcept {
+  std::ranges::fill(total_, Vec{});
+  for (const Branch& b : branches_)
+    for (std::size_t k = 0; k < total_.size(); ++k) total_[k] += b.modulus * b.force[k];
 }
 
 template <class Stiffness>
@@ -93,6 +107,7 @@ void ViscousBranches<Stiffness>::restore(std::span<const Vec> u, std::span<const
     product(b.stiffness, b.strain, b.force);
     saved = saved.subspan(components * u.size());
   }
+  add_up();
 }
 
 template class ViscousBranches<fem::BlockCsr>;

@@ -33,8 +33,11 @@ class ViscousBranches {
   /// All branches are relaxed at u. The parts must outlive it. @param dt > 0, of a step [s]
   ViscousBranches(Parts parts, std::span<const Vec> u, double dt, int threads);
 
-  /// Moves on by a step, to displacements u, and adds the forces of the branches there.
-  void move(std::span<const Vec> u, std::span<Vec> force) noexcept;
+  /// Moves on by a step, to displacements u.
+  void move(std::span<const Vec> u) noexcept;
+  /// (n) Of all branches at the last u, and at the one before [N].
+  [[nodiscard]] std::span<const Vec> force() const noexcept { return total_; }
+  [[nodiscard]] std::span<const Vec> force_before() const noexcept { return total_before_; }
   /// Stored at the last u [J].
   [[nodiscard]] double stored() const noexcept { return stored_; }
   /// Lost in the last step, >= 0 [J].
@@ -55,13 +58,15 @@ class ViscousBranches {
     std::vector<Vec> strain;  ///< (n) u - q
     std::vector<Vec> force;   ///< (n) V (u - q) of strain 1
   };
+  void add_up() noexcept;
   void product(const Stiffness& v, std::span<const Vec> u, std::span<Vec> out) const noexcept;
 
   double dt_;
   int threads_;
   std::vector<Vec> u_;  ///< (n) the last one
   std::vector<Branch> branches_;
-  std::vector<Vec> strain_, force_;  ///< (n) of a branch at the new u
+  std::vector<Vec> strain_, force_;        ///< (n) of a branch at the new u
+  std::vector<Vec> total_, total_before_;  ///< (n)
   double stored_ = 0.0, lost_ = 0.0;
 };
 

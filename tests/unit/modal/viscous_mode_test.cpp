@@ -103,8 +103,8 @@ double worst(const Body& body, double beta) {
         modal::take_branches<fem::BlockCsr>(body.parts, body.mass, 0.0, {0.0, beta}, mode);
     EXPECT_GT(mode.omega, 1.02 * slow);
     EXPECT_GT(ratio, 0.01);
-    const double size = mode.omega / std::sqrt(1.0 - ratio * ratio);
-    const std::complex<double> root{-ratio * size, mode.omega};
+    const double size = mode.omega;
+    const std::complex<double> root{-ratio * size, size * std::sqrt(1.0 - ratio * ratio)};
     double nearest = size;
     for (const std::complex<double>& value : all)
       nearest = std::min(nearest, std::abs(value - root));
@@ -134,8 +134,18 @@ TEST(ViscousModes, WithoutBranchesHaveTheRatioOfTheDampingAlone) {
     const double ratio =
         modal::take_branches<fem::BlockCsr>(Parts{}, body.mass, 0.0, {1.0, 1e-5}, mode);
     EXPECT_NEAR(ratio, expected, 1e-10);
-    EXPECT_NEAR(mode.omega, omega * std::sqrt(1.0 - ratio * ratio), 1e-9 * omega);
+    EXPECT_NEAR(mode.omega, omega, 1e-9 * omega);
   }
+}
+
+TEST(ViscousModes, ThatAreOverdampedStay) {
+  const Body body({{0.3, 2e-3}});
+  modal::Modes found = modal::mesh_modes({body.mesh, body.stiffness, body.mass}, 0.0, 1);
+  modal::Mode& mode = found.modes.front();
+  const double omega = mode.omega;
+  EXPECT_TRUE(std::isnan(
+      modal::take_branches<fem::BlockCsr>(body.parts, body.mass, 0.0, {10.0 * omega, 0.0}, mode)));
+  EXPECT_EQ(mode.omega, omega);
 }
 
 }  // namespace viscous_mode_test

@@ -122,6 +122,19 @@ Told branch_line(const Described& d, const fem::ViscousBranch& branch, double st
   return {d.name.empty() ? "viscosity" : "viscosity of " + d.name, text};
 }
 
+/// What a step resolves in place of a branch that relaxes in so many of them.
+std::string slower_than(const Described& d, double steps, double step) {
+  if (d.law.loss_factor > 0.0) {
+    const double highest = d.law.loss_band.y * steps;
+    return fmt::format("a highest frequency of at most {:.4g} Hz, below {:.4g} Hz to resolve it",
+                       highest, highest / resolved_steps);
+  }
+  return fmt::format(
+      ">= {0:.4g}, above {1:.4g} to resolve it; or no such branch: one so fast is practically "
+      "always relaxed",
+      step, resolved_steps * step);
+}
+
 }  // namespace
 
 void add_rubber(const Case& c, Setup& s) {
@@ -148,13 +161,11 @@ void check_branches(const Case& c, Setup& s) {
       const std::string found =
           fmt::format("a branch that relaxes in {:.4g} s, {:.3g} of the step of {:.4g} s", time,
                       time / step, step);
+      const std::string slower = slower_than(d, time / step, step);
       if (time < step)
-        throw case_error(c, time_key(d, b), found + ": the step passes over it",
-                         fmt::format(">= {0:.4g}, above {1:.4g} to resolve it; or no such branch: "
-                                     "one so fast is practically always relaxed",
-                                     step, resolved_steps * step));
-      s.warnings.push_back(fmt::format("{}: {}: its losses are rough below {} steps",
-                                       time_key(d, b), found, resolved_steps));
+        throw case_error(c, time_key(d, b), found + ": the step passes over it", slower);
+      s.warnings.push_back(fmt::format("{}: {}: its losses are rough below {} steps: {}",
+                                       time_key(d, b), found, resolved_steps, slower));
     }
   }
 }

@@ -26,13 +26,13 @@ std::string at_frequencies(const std::vector<fem::ViscousBranch>& branches,
 
 Told line_of(const std::string& name, const MaterialLaw& law, const fem::Material& m) {
   const std::vector<fem::ViscousBranch>& branches = fem::branches_of(m);
-  std::string title = name.empty() ? "viscosity" : "viscosity of " + name;
+  const std::string of = name.empty() ? std::string() : fmt::format("of \"{}\": ", name);
   if (law.loss_factor == 0.0)
-    return {std::move(title), at_frequencies(branches, {1.0, 10.0, 100.0, 1000.0})};
+    return {"viscosity", of + at_frequencies(branches, {1.0, 10.0, 100.0, 1000.0})};
   const auto [low, high] = law.loss_band;
   return {
-      std::move(title),
-      fmt::format("{} branches, tan δ within {:.2g} % of {:.4g} from {:.4g} to {:.4g} Hz; {}",
+      "viscosity",
+      fmt::format("{}{} branches, tan δ within {:.2g} % of {:.4g} from {:.4g} to {:.4g} Hz; {}", of,
                   branches.size(), 100.0 * fem::fit_error(branches, law.loss_factor, {low, high}),
                   law.loss_factor, low, high,
                   at_frequencies(branches, {low, std::sqrt(low * high), high}))};

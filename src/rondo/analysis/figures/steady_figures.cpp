@@ -28,6 +28,7 @@ constexpr std::array steady_columns{
     FigureColumn{"shear_max_pa", "Pa", "largest"},
     FigureColumn{"friction_power", "W/m", "taken by friction"},
     FigureColumn{"material_power", "W/m", "taken by viscous materials"},
+    FigureColumn{"damping_power", "W/m", "taken by mass and stiffness damping"},
     FigureColumn{"scheme_share", "1", scheme_share},
     FigureColumn{"energy_residual_relative", "1", "of the balance of powers"},
     FigureColumn{"contact_residual_max", "1", "of the contact law"},
@@ -61,6 +62,7 @@ constexpr std::array steady_solid_columns{
     FigureColumn{"shear_max_pa", "Pa", "largest"},
     FigureColumn{"friction_power", "W", "taken by friction"},
     FigureColumn{"material_power", "W", "taken by viscous materials"},
+    FigureColumn{"damping_power", "W", "taken by mass and stiffness damping"},
     FigureColumn{"scheme_share", "1", scheme_share},
     FigureColumn{"energy_residual_relative", "1", "of the balance of powers"},
     FigureColumn{"contact_residual_max", "1", "of the contact law"},
@@ -104,6 +106,7 @@ std::vector<double> steady_figures_of(const Json& run, bool solid) {
   add({"pressure_max", "shear_max"});
   const Json power = steady.value("power", Json::object());
   for (const char* taker : {"friction", "viscosity"}) figures.push_back(number(power, taker));
+  figures.push_back(number(power, "mass") + number(power, "stiffness"));
   add({"scheme_share"});
   add_figures_of_all(run, figures);
   return figures;

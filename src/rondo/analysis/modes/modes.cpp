@@ -298,7 +298,13 @@ class ModesAnalysis final : public Analysis {
 /// Nothing where an inflated wheel has no state at this spin.
 SolvedModes ModesAnalysis::solve(double spin) {
   try {
-    return solver_->modes(spin, request_.count);
+    SolvedModes s = solver_->modes(spin, request_.count);
+    if (s.overdamped > 0)
+      say(
+          fmt::format("at {} rad/s {} of the modes do not oscillate with the branches of the "
+                      "material and [damping]: their rows are those of slow strains",
+                      spin, s.overdamped));
+    return s;
   } catch (const InputError& none) {
     if (!wrong_) wrong_ = fmt::format("at {} rad/s: {}", spin, none.what());
     return {};

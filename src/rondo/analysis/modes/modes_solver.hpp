@@ -2,6 +2,7 @@
 /// @file  Modes of one body at several spins: in the plane on any mesh, or of a wheel in three
 /// dimensions, also where it stands on the ground.
 #pragma once
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -18,14 +19,22 @@ namespace rondo::study {
 struct SolvedModes {
   modal::Modes found;
   std::vector<double> residuals, damping_ratios;  ///< ratios: NaN of rigid-body motions
+  int overdamped = 0;  ///< of a viscous body: their rows are those of slow strains
 };
 
-/// Frequencies and damping ratios with the viscous branches of the body; the order stays.
+/// Frequencies and damping ratios with the viscous branches of the body; the order stays, and so do
+/// modes that are overdamped.
 template <class Stiffness>
 void take_branches(std::span<const fem::ViscousPart<Stiffness>> parts, std::span<const double> mass,
                    double spin, modal::Damping damping, SolvedModes& s) {
-  for (std::size_t i = 0; i < s.found.modes.size() && !parts.empty(); ++i)
-    s.damping_ratios[i] = modal::take_branches(parts, mass, spin, damping, s.found.modes[i]);
+  for (std::size_t i = 0; i < s.found.modes.size() && !parts.empty(); ++i) {
+    modal::Mode& mode = s.found.modes[i];
+    const double ratio = modal::take_branches(parts, mass, spin, damping, mode);
+    if (!std::isnan(ratio))
+      s.damping_ratios[i] = ratio;
+    else if (mode.wave != modal::Wave::rigid)
+      ++s.overdamped;
+  }
 }
 
 class ModesSolver {

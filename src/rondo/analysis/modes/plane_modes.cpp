@@ -33,7 +33,7 @@ class PlaneModes final : public ModesSolver {
     const double spin = -angular_velocity;
     if (!unit_prestress_.empty()) assemble(spin);
     const auto solve = [&](const auto& body, auto&& modes_of) {
-      SolvedModes s{modes_of(body, spin, count), {}, {}};
+      SolvedModes s{modes_of(body, spin, count), {}, {}, 0};
       for (const modal::Mode& mode : s.found.modes) {
         s.residuals.push_back(modal::residual(body, spin, mode));
         s.damping_ratios.push_back(modal::damping_ratio(body_.mass, spin, mode, damping_));

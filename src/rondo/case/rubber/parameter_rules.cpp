@@ -122,22 +122,18 @@ void check_branches(CaseValues& in, const Described& d) {
   }
 }
 
-bool is_given(const CaseValues& in, const std::string& key) {
-  return in.has(key) || in.n_items(key) > 0;
-}
-
 /// By branches or by a factor, for which the band is there.
 void check_loss(CaseValues& in, const Described& d) {
   check_branches(in, d);
   const std::string factor = d.key("loss_factor");
   constexpr std::string_view band = "material.loss_band";
-  if (is_given(in, factor) && is_given(in, d.key("viscosity")))
+  if (d.law.loss_factor > 0.0 && !d.law.viscosity.empty() && in.has(factor))
     in.fault(factor, "is given together with viscosity: the branches follow from the loss factor",
              "one of loss_factor and viscosity");
   if (d.law.loss_factor > 0.0 && in.has(band) && in.good({band}) && !has_band(d.law))
     in.fault(band, "is no band of frequencies",
              fmt::format("[lowest, highest] in Hz, above 0, the highest at most {:.0e} times the "
-                         "lowest: [5.0, 500.0] for a rolling tyre",
+                         "lowest, for example [5.0, 500.0]",
                          widest_band));
 }
 
@@ -221,6 +217,7 @@ void complete_region(CaseValues& in, const Case& c, MaterialRegion& region, cons
   const bool has_ratio = in.has(d.key("poissons_ratio")), has_bulk = in.has(d.key("bulk_modulus"));
   const bool same = law.model == c.law.model;
   law.loss_band = c.law.loss_band;
+  // One of both takes the place of what [material] has.
   const bool has_branches = in.has(d.key("viscosity")), has_factor = in.has(d.key("loss_factor"));
   if (has_branches && !has_factor) law.loss_factor = 0.0;
   if (has_factor && !has_branches) law.viscosity.clear();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Where viscous branches of materials at small strain are understood (docs/rolling-resistance.md).
+#include <fmt/format.h>
+
 #include "rondo/case/case_rules.hpp"
 #include "rondo/case/rubber/material.hpp"
+#include "rondo/fem/viscosity.hpp"
 
 namespace rondo::study {
 namespace {
@@ -28,17 +31,39 @@ std::string first_viscous(const Case& c, Viscous kind) {
   return key;
 }
 
+/// Where the branches do not have the loss factor that they stand for.
+void warn_of_fits(Case& c) {
+  constexpr double most = 0.05;
+  const auto look = [&](const std::string& table, const MaterialLaw& law, const fem::Material& m) {
+    if (law.loss_factor == 0.0 || !has_band(law)) return;
+    const auto [low, high] = law.loss_band;
+    const double error = fem::fit_error(fem::branches_of(m), law.loss_factor, {low, high});
+    if (error > most)
+      c.warnings.push_back(
+          fmt::format("{}.loss_factor: tan δ of the branches is within {:.2g} % of it only: a "
+                      "smaller factor, or "
+                      "a narrower material.loss_band than {:.4g} to {:.4g} Hz",
+                      table, 100.0 * error, low, high));
+  };
+  look("material", c.law, c.material);
+  for (std::size_t k = 0; k < c.regions.size(); ++k)
+    if (c.regions[k].law.loss_factor != c.law.loss_factor)
+      look(item_of("material.region", k), c.regions[k].law, c.regions[k].material);
+}
+
 }  // namespace
 
 void check_viscosity(CaseValues& in, Case& c) {
-  if (in.has("material.loss_band") && first_viscous(c, Viscous::by_factor).empty())
+  if (in.has("material.loss_band") && in.good({"material.loss_factor"}) &&
+      !in.has("material.loss_factor") && first_viscous(c, Viscous::by_factor).empty())
     in.fault("material.loss_band", "is the band of a loss factor, and there is none",
              "material.loss_factor, or that of a region, beside it");
   if (!has_viscosity(c) || !in.good({"material.model"})) return;
+  warn_of_fits(c);
   if (has_rubber(c)) {
     const std::string key = first_viscous(c, Viscous::linear);
     if (!key.empty())
-      in.fault(key, "is of a linear material in a body of rubber at finite strain",
+      in.fault(key, "makes a linear material viscous in a body of rubber at finite strain",
                "none, or a law of rubber for this region too");
     return;
   }

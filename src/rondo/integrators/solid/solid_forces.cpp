@@ -85,7 +85,9 @@ double SolidForces::evaluate(std::span<const Vec3> u, std::span<const Vec3> /*v*
   std::swap(now_, before_);
   double stored = find(u, frame.angle);
   if (branches_) {
-    branches_->move(u, now_);
+    branches_->move(u);
+    const std::span<const Vec3> more = branches_->force();
+    for_free_nodes(model_, [&](std::size_t k) { now_[k] += more[k]; });
     stored += branches_->stored();
     loss_.add(branches_->lost());
   }

@@ -25,9 +25,11 @@ class SolidForces {
   double evaluate(std::span<const Vec3> u, std::span<const Vec3> v,
                   const FrameStep& frame) noexcept;
   [[nodiscard]] Vec3 gradient(std::size_t k) const noexcept { return now_[k]; }
-  /// β (K u_{n+1} - K u_n)/Δt.
+  /// β (K u_{n+1} - K u_n)/Δt, without viscous branches, which have their own loss.
   [[nodiscard]] Vec3 damping(std::size_t k) const noexcept {
-    return model_.stiffness_damping / model_.dt * (now_[k] - before_[k]);
+    Vec3 change = now_[k] - before_[k];
+    if (branches_) change -= branches_->force()[k] - branches_->force_before()[k];
+    return model_.stiffness_damping / model_.dt * change;
   }
   /// Force of the pressures on any node, clamped or not; 0 where there are no pressures.
   [[nodiscard]] Vec3 load(std::size_t k) const noexcept {
