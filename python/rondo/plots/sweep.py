@@ -28,6 +28,7 @@ FIGURE_LABELS = {"energy_residual_relative": "imbalance of energy, relative",
                  "contact_residual_max": "largest contact residual", "end_time_s": "end time",
                  "dissipation_friction": "dissipated by friction",
                  "friction_power": "power of friction", "impact_power": "power of impacts",
+                 "material_power": "power of viscous materials", "damping_power": "power of damping",
                  "scheme_share": "share of the discretisation in the power"}
 ROUND_OFF = 1e-10  # of the greatest force: what is nothing beside it
 LONGEST = 18  # characters of a text at an axis
