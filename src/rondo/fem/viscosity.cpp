@@ -109,7 +109,7 @@ std::vector<ViscousBranch> branches_of(double tangent, Band band) {
        spaced(1.0 / (margin * two_pi * band.high), margin / (two_pi * band.low), count))
     branches.push_back({0.0, time});
   constexpr int passes = 30;
-  for (int pass = 0; pass < passes; ++pass) {
+  for (int pass = 0; pass < passes && !branches.empty(); ++pass) {
     fit(tangent, omega, branches);
     std::erase_if(branches, [](const ViscousBranch& b) { return !(b.relative_modulus > 0.0); });
   }

@@ -40,7 +40,7 @@ std::vector<fem::ViscousBranch> branches_of(const MaterialLaw& law) {
 
 bool has_band(const MaterialLaw& law) noexcept {
   const auto [low, high] = law.loss_band;
-  return low > 0.0 && low < high && high <= widest_band * low;
+  return low >= slowest_band && low < high && high <= fastest_band && high <= widest_band * low;
 }
 
 bool has_viscosity(const Case& c) noexcept {

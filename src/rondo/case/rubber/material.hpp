@@ -8,8 +8,8 @@ namespace rondo::study {
 /// μ of a rubber at small strain, without branches                                      [Pa]
 [[nodiscard]] double shear_modulus_of(const MaterialLaw& law) noexcept;
 
-/// Largest ratio of the frequencies of a band.
-inline constexpr double widest_band = 1e8;
+/// Largest ratio of the frequencies of a band, and their own bounds [Hz].
+inline constexpr double widest_band = 1e8, slowest_band = 1e-9, fastest_band = 1e12;
 /// The band of a loss factor is one.
 [[nodiscard]] bool has_band(const MaterialLaw& law) noexcept;
 

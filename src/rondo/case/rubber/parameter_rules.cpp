@@ -131,10 +131,11 @@ void check_loss(CaseValues& in, const Described& d) {
     in.fault(factor, "is given together with viscosity: the branches follow from the loss factor",
              "one of loss_factor and viscosity");
   if (d.law.loss_factor > 0.0 && in.has(band) && in.good({band}) && !has_band(d.law))
-    in.fault(band, "is no band of frequencies",
-             fmt::format("[lowest, highest] in Hz, above 0, the highest at most {:.0e} times the "
-                         "lowest, for example [5.0, 500.0]",
-                         widest_band));
+    in.fault(
+        band, "is no band of frequencies",
+        fmt::format("[lowest, highest] in Hz, {:.0e} to {:.0e}, the highest at most {:.0e} times "
+                    "the lowest, for example [5.0, 500.0]",
+                    slowest_band, fastest_band, widest_band));
 }
 
 bool has_exponents(CaseValues& in, const Described& d) {
