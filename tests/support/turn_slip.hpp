@@ -73,7 +73,8 @@ inline SpinCreep creep_of(const HalfSpaces& of, double load) {
           -s.by_slip_angle.forces.aligning / (unit * std::sqrt(area))};
 }
 
-/// The same of a freely rolling wheel of equal radii, whose contact is a circle of .08 of them.
+/// Finds the same coefficients for a freely rolling wheel, whose radii are equal and whose contact
+/// is a circle of .08 of them.
 inline SpinCreep creep_of_wheel(int around, statics::SlipDifference slip) {
   constexpr double nu = 0.45, modulus = 5e6 / (1.0 - nu * nu);
   constexpr double shear = 5e6 / (1.0 + nu);  // rigid ground: twice that of the body
@@ -111,9 +112,9 @@ inline SpinForces spin_of_half_spaces(int elements) {
           largest / element};
 }
 
-/// The same of a wheel of radius .3 m and crown .1 m, whose ellipse has nearly CONTACT's axes. Its
-/// creep and spin have CONTACT's ratios to those of full sliding in Kalker's linear theory, for the
-/// Poisson's ratios of both.
+/// Finds the same figures for a wheel of radius .3 m and crown .1 m, whose ellipse has nearly
+/// CONTACT's axes. Its creep and spin have CONTACT's ratios to those of full sliding in Kalker's
+/// linear theory, for the Poisson's ratios of both.
 /// @param across elements over the width. @param around columns
 inline SpinForces spin_of_wheel(int across, int around, statics::SlipDifference slip) {
   constexpr double nu = 0.45, modulus = 5e6 / (1.0 - nu * nu), shear = 2.0 * 5e6 / (2.0 + 2.0 * nu);

@@ -14,7 +14,7 @@
 
 namespace rondo::fem {
 
-/// Of its law.
+/// The branches of a material: those of its law if it is rubber.
 [[nodiscard]] const std::vector<ViscousBranch>& branches_of(const Material& material) noexcept;
 
 /// g(iω) - 1. @param omega ω; below 0 the conjugate of that above [rad/s]

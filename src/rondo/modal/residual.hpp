@@ -17,7 +17,7 @@ struct Damping {
   double mass = 0.0, stiffness = 0.0;
 };
 
-/// Of a mode of the undamped body, φᴴMφ = 1.
+/// Forms of the shape φ of an undamped mode, which has φᴴMφ = 1.
 struct ModeForms {
   double gyroscopic = 0.0;  ///< φᴴ 2sMJ φ/i                                           [rad/s]
   double softening = 0.0;   ///< φᴴ s²MP φ                                          [1/s²]

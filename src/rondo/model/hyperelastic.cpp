@@ -8,6 +8,7 @@
 #include "rondo/core/sum.hpp"
 #include "rondo/model/corotated.hpp"
 #include "rondo/model/internal_force.hpp"
+#include "rondo/model/internal_work.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -31,13 +32,12 @@ class Hyperelastic final : public InternalForce {
         body_(std::move(body)),
         poses_(poses.begin(), poses.end()),
         histories_(body_->relaxed(u0)),
-        u_(u0.begin(), u0.end()),
         force_(model.n_nodes()),
         before_(model.n_nodes()) {
     RONDO_DEMAND(body_->n_nodes() == model.n_nodes(), body_->n_nodes(), model.n_nodes());
     RONDO_DEMAND(poses_.size() == model.free_bodies.size(), poses_.size());
     demand_rubber_alone(model, *body_);
-    work_.add(body_->gradient(u0, histories_, force_, pass_, model.threads).energy);
+    work_.start(u0, body_->gradient(u0, histories_, force_, pass_, model.threads).energy);
     report_.internal_work = report_.stored_energy = work_.value();
   }
 
@@ -46,15 +46,14 @@ class Hyperelastic final : public InternalForce {
     std::swap(force_, before_);
     relax(u);
     const fem::Look look = body_->gradient(u, histories_, force_, pass_, model_.threads);
-    add_work(u);
+    half_step_energy_ = work_.add(model_, u, before_, force_);
     report_ = {.internal_work = work_.value(),
                .stored_energy = look.energy,
                .window_work = 0.0,
                .dissipation_viscous = loss_.value(),
                .least_volume = look.least.ratio};
     relax(u);
-    u_.assign(u.begin(), u.end());
-    update_poses(model_, u_, poses_);
+    update_poses(model_, u, poses_);
   }
   [[nodiscard]] std::span<const Vec2> gradient() const noexcept override { return force_; }
   [[nodiscard]] double half_step_energy(std::span<const Vec2>,
@@ -72,21 +71,21 @@ class Hyperelastic final : public InternalForce {
     saved.force = saved.gradient = force_;
     saved.energy.assign(poses_.size(), 0.0);  // free bodies have no separate energies
     saved.poses = poses_;
-    saved.internal_work = {work_.sum(), work_.correction(), loss_.sum(), loss_.correction()};
+    const CompensatedSum& work = work_.sum();
+    saved.internal_work = {work.sum(), work.correction(), loss_.sum(), loss_.correction()};
     saved.branches.clear();
     for (const Hyperelasticity::History& c : histories_)
       saved.branches.insert(saved.branches.end(), {c.xx, c.yy, c.xy});
   }
   void restore(const SavedState& saved) override {
     const Field& u = model_.rim ? saved.u_before : saved.u;
-    RONDO_DEMAND(saved.force.size() == force_.size() && u.size() == u_.size() &&
+    RONDO_DEMAND(saved.force.size() == force_.size() && u.size() == force_.size() &&
                      saved.poses.size() == poses_.size() && saved.internal_work.size() == 4 &&
                      saved.branches.size() == 3 * histories_.size(),
                  saved.force.size(), u.size(), saved.branches.size());
     force_ = to_vector(saved.force.plane());
-    u_ = to_vector(u.plane());
     poses_ = saved.poses;
-    work_ = {saved.internal_work[0], saved.internal_work[1]};
+    work_.restore(u.plane(), {saved.internal_work[0], saved.internal_work[1]});
     loss_ = {saved.internal_work[2], saved.internal_work[3]};
     for (std::size_t i = 0; i < histories_.size(); ++i)
       histories_[i] = {saved.branches[3 * i], saved.branches[3 * i + 1], saved.branches[3 * i + 2]};
@@ -97,26 +96,13 @@ class Hyperelastic final : public InternalForce {
     loss_.add(body_->relax(u, 0.5 * model_.dt, histories_, pass_, model_.threads));
   }
 
-  /// A_n + ½ f_n·Δu half a step before u_{n+1}; adding ½ f_{n+1}·Δu gives A_{n+1}.
-  void add_work(std::span<const Vec2> u) noexcept {
-    double before = 0.0, now = 0.0;
-    for_free_nodes(model_, [&](std::size_t k) {
-      const Vec2 way = u[k] - u_[k];
-      before += dot(before_[k], way);
-      now += dot(force_[k], way);
-    });
-    half_step_energy_ = work_.value() + 0.5 * before;
-    work_.add(0.5 * (before + now));
-  }
-
   const Model& model_;
   const std::shared_ptr<const Hyperelasticity> body_;
   Hyperelasticity::Pass pass_;
   std::vector<Pose> poses_;
   std::vector<Hyperelasticity::History> histories_;  ///< half a step after u
-  std::vector<Vec2> u_;                              ///< (n)                            [m]
   std::vector<Vec2> force_, before_;                 ///< (n) f_{n+1}, f_n               [N/m]
-  CompensatedSum work_;                              ///< A, starting from U(u_0)              [J/m]
+  InternalWork<Vec2> work_;                          ///< A                              [J/m]
   CompensatedSum loss_;                              ///< of the branches                [J/m]
   double half_step_energy_ = 0.0;                    ///< [J/m]
   MaterialReport report_;

@@ -9,6 +9,7 @@
 #include "rondo/core/sum.hpp"
 #include "rondo/fem/stiffness_product.hpp"
 #include "rondo/model/corotated.hpp"
+#include "rondo/model/internal_work.hpp"
 #include "rondo/model/viscous_branches.hpp"
 
 namespace rondo::dynamics {
@@ -60,11 +61,10 @@ class ViscousStiffness final : public InternalForce {
   ViscousStiffness(const Model& model, std::span<const Vec2> u0)
       : model_(model),
         branches_(model.viscous, u0, model.dt, model.threads),
-        u_(u0.begin(), u0.end()),
         force_(model.n_nodes()),
         before_(model.n_nodes()) {
     apply(model.stiffness, u0, force_, model.threads);
-    work_.add(elastic_energy(u0));
+    work_.start(u0, elastic_energy(u0));
     report_.internal_work = report_.stored_energy = work_.value();
   }
 
@@ -75,21 +75,20 @@ class ViscousStiffness final : public InternalForce {
     branches_.move(u);
     const std::span<const Vec2> more = branches_.force();
     for_free_nodes(model_, [&](std::size_t k) { force_[k] += more[k]; });
-    add_work(u);
+    half_step_energy_ = work_.add(model_, u, before_, force_);
     loss_.add(branches_.lost());
     report_ = {.internal_work = work_.value(),
                .stored_energy = elastic + branches_.stored(),
                .window_work = 0.0,
                .dissipation_viscous = loss_.value(),
                .least_volume = 1.0};
-    std::ranges::copy(u, u_.begin());
   }
   [[nodiscard]] std::span<const Vec2> gradient() const noexcept override { return force_; }
   [[nodiscard]] double half_step_energy(std::span<const Vec2>,
                                         std::span<const Vec2>) const noexcept override {
     return half_step_energy_;
   }
-  /// Of K u alone: the branches have their own loss.
+  /// β acts on K u alone, because the branches have a loss of their own.
   void damping(std::span<Vec2> out) noexcept override {
     const double rate = model_.stiffness_damping / model_.dt;
     const std::span<const Vec2> now = branches_.force(), before = branches_.force_before();
@@ -101,18 +100,18 @@ class ViscousStiffness final : public InternalForce {
 
   void save(SavedState& saved) const override {
     saved.force = saved.gradient = force_;
-    saved.internal_work = {work_.sum(), work_.correction(), loss_.sum(), loss_.correction()};
+    const CompensatedSum& work = work_.sum();
+    saved.internal_work = {work.sum(), work.correction(), loss_.sum(), loss_.correction()};
     saved.branches = branches_.save();
   }
   void restore(const SavedState& saved) override {
     demand_size(model_.n_nodes(), saved);
     RONDO_DEMAND(saved.internal_work.size() == 4, saved.internal_work.size());
     const Field& u = model_.rim ? saved.u_before : saved.u;
-    u_ = to_vector(u.plane());
     force_ = to_vector(saved.force.plane());
-    work_ = {saved.internal_work[0], saved.internal_work[1]};
+    work_.restore(u.plane(), {saved.internal_work[0], saved.internal_work[1]});
     loss_ = {saved.internal_work[2], saved.internal_work[3]};
-    branches_.restore(u_, saved.branches);
+    branches_.restore(work_.u(), saved.branches);
   }
 
  private:
@@ -122,23 +121,11 @@ class ViscousStiffness final : public InternalForce {
     for_free_nodes(model_, [&](std::size_t k) { energy += 0.5 * dot(u[k], force_[k]); });
     return energy;
   }
-  /// A_n + ½ f_n·Δu half a step before u_{n+1}; with ½ f_{n+1}·Δu more it is A_{n+1}.
-  void add_work(std::span<const Vec2> u) noexcept {
-    double before = 0.0, now = 0.0;
-    for_free_nodes(model_, [&](std::size_t k) {
-      const Vec2 way = u[k] - u_[k];
-      before += dot(before_[k], way);
-      now += dot(force_[k], way);
-    });
-    half_step_energy_ = work_.value() + 0.5 * before;
-    work_.add(0.5 * (before + now));
-  }
 
   const Model& model_;
   ViscousBranches<fem::BlockCsr> branches_;
-  std::vector<Vec2> u_;               ///< (n) the last one                              [m]
   std::vector<Vec2> force_, before_;  ///< (n) f_{n+1}, f_n                              [N/m]
-  CompensatedSum work_;               ///< A, starting from what is stored at u_0         [J/m]
+  InternalWork<Vec2> work_;           ///< A                                             [J/m]
   CompensatedSum loss_;               ///< of the branches                               [J/m]
   double half_step_energy_ = 0.0;     ///< [J/m]
   MaterialReport report_;

@@ -64,7 +64,8 @@ struct Body {
     return all;
   }
 
-  /// Of u, v and the displacements of all branches.
+  /// The eigenvalues of the linear system whose unknowns are u, v and the displacements of all
+  /// branches.
   [[nodiscard]] Eigen::VectorXcd eigenvalues(double beta) const {
     const Index n = 2 * std::ssize(free);
     Index count = 2;

@@ -82,7 +82,7 @@ TEST(History, TheContactLengthIsThatOfTheDeformedBoundary) {
   EXPECT_EQ(value(history.columns(), blind, "contact_length_m"), 0.0) << "nothing touches";
 }
 
-/// Of a wheel in three dimensions, at a row without and with the displacements.
+/// A wheel in three dimensions has a row without displacements and one with them.
 TEST(History, TheFootprintIsThatOfTheRow) {
   const Built b = built({"output.history_interval=0", "disk.width=0.1", "ground.profile=flat",
                          "ground.fillet=0", "motion.height=0.4"});

@@ -32,8 +32,8 @@ void add_stress_stiffening(const Case& c, SteadyBody<2>& b) {
   b.sector = fem::assemble_sector(b.mesh, b.materials, found.u);
 }
 
-/// Of the stiffness of sudden strains: between that and the stiffness of slow ones branches damp
-/// the waves.
+/// The critical spin is that of a body as stiff as it is against sudden strains. Below it, down to
+/// the critical spin of slow strains, the branches damp the waves.
 template <int D>
 void warn_of_critical_spin(const Case& c, SteadyBody<D>& b) {
   if (spin_of(c) == 0.0) return;

@@ -18,9 +18,8 @@ SolidForces::SolidForces(const Model& model, const State& start)
   if (model.solid->swept) swept_.emplace(swept_wheel(model));
   if (!model.solid->viscous.empty())
     branches_.emplace(model.solid->viscous, u, model.dt, model.threads);
-  if (keeps_work()) u_ = to_vector(u);
   const double stored = find(u, start.frame.angle);
-  work_.add(stored);
+  if (keeps_work()) work_.start(u, stored);
   report_.internal_work = report_.stored_energy = stored;
 }
 
@@ -32,16 +31,8 @@ double SolidForces::find(std::span<const Vec3> u, double angle) noexcept {
   return stored;
 }
 
-/// A_n + ½ f_n·Δu half a step before u_{n+1}; with ½ f_{n+1}·Δu more it is A_{n+1}.
 double SolidForces::add_work(std::span<const Vec3> u, double stored) noexcept {
-  double before = 0.0, now = 0.0;
-  for_free_nodes(model_, [&](std::size_t k) {
-    const Vec3 way = u[k] - u_[k];
-    before += dot(before_[k], way);
-    now += dot(now_[k], way);
-  });
-  const double half = work_.value() + 0.5 * before;
-  work_.add(0.5 * (before + now));
+  const double half = work_.add(model_, u, before_, now_);
   report_.internal_work = work_.value();
   report_.stored_energy = stored;
   report_.dissipation_viscous = loss_.value();
@@ -49,14 +40,14 @@ double SolidForces::add_work(std::span<const Vec3> u, double stored) noexcept {
     window_work_.add(swept_->window_work());
     report_.window_work = window_work_.value();
   }
-  u_.assign(u.begin(), u.end());
   return half;
 }
 
 void SolidForces::save(SavedState& saved) const {
   saved.force = now_;
+  const CompensatedSum& work = work_.sum();
   if (keeps_work())
-    saved.internal_work = {work_.sum(), work_.correction(), loss_.sum(), loss_.correction()};
+    saved.internal_work = {work.sum(), work.correction(), loss_.sum(), loss_.correction()};
   if (branches_) saved.branches = branches_->save();
   if (!has_window(model_)) return;
   saved.window = {window_work_.sum(), window_work_.correction()};
@@ -69,10 +60,9 @@ void SolidForces::restore(const SavedState& saved) {
   if (!keeps_work()) return;
   RONDO_DEMAND(saved.internal_work.size() == 4, saved.internal_work.size());
   const Field& u = model_.rim ? saved.u_before : saved.u;
-  u_ = to_vector(u.space());
-  work_ = {saved.internal_work[0], saved.internal_work[1]};
+  work_.restore(u.space(), {saved.internal_work[0], saved.internal_work[1]});
   loss_ = {saved.internal_work[2], saved.internal_work[3]};
-  if (branches_) branches_->restore(u_, saved.branches);
+  if (branches_) branches_->restore(work_.u(), saved.branches);
   if (!has_window(model_)) return;
   RONDO_DEMAND(saved.window.size() == window_numbers(model_), saved.window.size());
   window_work_ = {saved.window[0], saved.window[1]};

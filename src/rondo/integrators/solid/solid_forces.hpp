@@ -8,6 +8,7 @@
 
 #include "rondo/core/sum.hpp"
 #include "rondo/core/vec3.hpp"
+#include "rondo/model/internal_work.hpp"
 #include "rondo/model/loaded_rim.hpp"
 #include "rondo/model/solid/swept_part.hpp"
 #include "rondo/model/viscous_branches.hpp"
@@ -59,8 +60,7 @@ class SolidForces {
   std::optional<SweptWheel> swept_;
   std::optional<ViscousBranches<fem::SolidSector>> branches_;
   // With either of them:
-  std::vector<Vec3> u_;         ///< (n) u_n [m]
-  CompensatedSum work_;         ///< A, starting from what is stored at u_0 [J]
+  InternalWork<Vec3> work_;     ///< A [J]
   CompensatedSum window_work_;  ///< W [J]
   CompensatedSum loss_;         ///< of the branches [J]
   MaterialReport report_;
