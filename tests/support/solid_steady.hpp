@@ -139,6 +139,16 @@ inline statics::RollingForces difference(const statics::RollingForces& a,
           (a.aligning - b.aligning) / by, (a.overturning - b.overturning) / by};
 }
 
+/// A wheel of radius .3 m at 10 m/s, .29 m high, at a slip angle.
+inline statics::RollingDrive cornering_drive() {
+  statics::RollingDrive d;
+  d.height = 0.29;
+  d.speed = 10.0;
+  d.slip_angle = 0.03;
+  d.friction = 0.4;
+  return d;
+}
+
 /// Radius .3 m, rolling slowly, with contacts that are small compared with it.
 inline SteadyWheelCase crowned_case(double crown, int radial, int axial, int around,
                                     double grading) {

@@ -84,15 +84,6 @@ void expect_full_matrix(const test::SteadyWheel& w, const RollingLayers<3>& laye
   EXPECT_LT((from_surface - inverse * load).norm(), 1e-12 * from_surface.norm());
 }
 
-RollingDrive drive() {
-  RollingDrive d;
-  d.height = 0.29;
-  d.speed = 10.0;
-  d.slip_angle = 0.03;
-  d.friction = 0.4;
-  return d;
-}
-
 }  // namespace
 
 TEST(SteadySolidLayers, EliminateAHarmonicAsItsFullMatrixDoes) {
@@ -236,7 +227,7 @@ TEST(SteadySolidHarmonics, WavesAreTheHarmonicsUpToHalfTheSectors) {
 TEST(SteadySolid, SlopesAreThoseOfDifferences) {
   const test::SteadyWheel w(small_case());
   RollingWindow<3> window = cambered(w, 9.81);
-  const RollingDrive d = drive();
+  const RollingDrive d = test::cornering_drive();
   const RollingSolution s = solved(window, d);
   const auto by = [&](double RollingDrive::*what, double step) {
     RollingDrive more = d, less = d;
@@ -254,7 +245,7 @@ TEST(SteadySolid, SlopesAreThoseOfDifferences) {
 TEST(SteadySolid, MomentsAreThoseOfPlacesAndForces) {
   const test::SteadyWheel w(small_case());
   RollingWindow<3> window = cambered(w);
-  const RollingSolution s = solved(window, drive());
+  const RollingSolution s = solved(window, test::cornering_drive());
   double aligning = 0.0, overturning = 0.0;
   for (Eigen::Index j = 0; 3 * j < s.force.size(); ++j) {
     aligning += s.place[2 * j + 1] * s.force[3 * j + 1] - s.place[2 * j] * s.force[3 * j + 2];
@@ -268,7 +259,7 @@ TEST(SteadySolid, MomentsAreThoseOfPlacesAndForces) {
 TEST(SteadySolid, TheSlipOfTheLawIsThatOfTheField) {
   const test::SteadyWheel w(test::box_wheel_case(4));
   RollingWindow<3> window = cambered(w);
-  RollingDrive d = drive();
+  RollingDrive d = test::cornering_drive();
   d.slip_angle = 0.1;
   const RollingSolution s = solved(window, d);
   const RollingPower power = rolling_power(window, s, spectrum_of(window, s));
@@ -279,7 +270,7 @@ TEST(SteadySolid, TheSlipOfTheLawIsThatOfTheField) {
 TEST(SteadySolid, LoadTractionAndTorqueComeBackToHeightAndSpeed) {
   const test::SteadyWheel w(small_case());
   RollingWindow<3> window = cambered(w, 9.81);
-  const RollingDrive given = drive();
+  const RollingDrive given = test::cornering_drive();
   const RollingSolution s = solved(window, given);
   RollingDrive d = given;
   d.load = s.forces.normal;
@@ -302,7 +293,7 @@ TEST(SteadySolid, LoadTractionAndTorqueComeBackToHeightAndSpeed) {
 TEST(SteadySolid, SlopesUnderLoadAndTorqueHaveItsRow) {
   const test::SteadyWheel w(small_case());
   RollingWindow<3> window = cambered(w);
-  RollingDrive d = drive();
+  RollingDrive d = test::cornering_drive();
   d.load = 18000.0;
   d.torque = 20.0;
   const RollingSolution s = solved(window, d);
@@ -324,26 +315,27 @@ TEST(SteadySolid, HasTheSameBitsWithMoreThreads) {
   c.threads = 3;
   const test::SteadyWheel three(c);
   RollingWindow<3> a = cambered(one), b = cambered(three);
-  const RollingSolution x = solved(a, drive()), y = solved(b, drive());
+  const RollingSolution x = solved(a, test::cornering_drive()),
+                        y = solved(b, test::cornering_drive());
   EXPECT_EQ(x.force, y.force);
 }
 
 TEST(SteadySolid, SaysWhereNothingTouchesOrAllSlides) {
   const test::SteadyWheel w(small_case());
   RollingWindow<3> window(w.harmonics, SlipDifference::bdf2);
-  RollingDrive d = drive();
+  RollingDrive d = test::cornering_drive();
   d.height = 0.302;
   EXPECT_EQ(solve_rolling(window, d).end, RollingEnd::no_contact);
-  d = drive();
+  d = test::cornering_drive();
   d.slip_angle = 0.0;
-  d.traction = 0.5 * solved(window, drive()).forces.normal;  // friction bears 0.4
+  d.traction = 0.5 * solved(window, test::cornering_drive()).forces.normal;  // friction bears 0.4
   EXPECT_NE(solve_rolling(window, d).end, RollingEnd::solved);
 }
 
 TEST(SteadySolid, ResidualKnowsAWrongForce) {
   const test::SteadyWheel w(small_case());
   RollingWindow<3> window = cambered(w);
-  const RollingDrive d = drive();
+  const RollingDrive d = test::cornering_drive();
   const RollingSolution s = solved(window, d);
   RollingPoint p{s.force, s.height, s.speed};
   EXPECT_LE(rolling_residual(window.problem(), p, d.path(), d.friction), 1e-10);

@@ -20,12 +20,8 @@ namespace {
 
 /// A path of radius 4 m to the left.
 RollingDrive turning() {
-  RollingDrive d;
-  d.height = 0.29;
-  d.speed = 10.0;
-  d.slip_angle = 0.03;
+  RollingDrive d = test::cornering_drive();
   d.turn_slip = 0.25;
-  d.friction = 0.4;
   return d;
 }
 
