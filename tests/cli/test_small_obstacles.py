@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Obstacles that are smaller than the contact nodes are apart: felt in the plane, refused or told of
-in three dimensions; what lies between nodes counts as penetration; rounding makes no corners."""
+"""Obstacles that are smaller than the contact nodes are apart: felt, and told of; what lies between nodes counts as penetration; rounding makes no corners."""
 import csv
 import unittest
 
 import numpy as np
 
-from program import SMALL, ProgramTest, RunTest, history, run, summary
-from test_solid import SECTION, TYRE, WHEEL
+from program import ROOT, SMALL, ProgramTest, RunTest, history, run, summary
 
 # 20 mm high, in front of the disk, which comes down beside it; nodes are 47 mm apart.
 POST = "ground.profile=[[-9, 0], [0.1, 0], [0.1, 0.02], [0.102, 0.02], [0.102, 0], [9, 0]]"
+CLEAT = (ROOT / "cases" / "wheel3d-cleat-sharp.toml").read_text()
 SPACING = 2 * 0.3 * np.sin(np.pi / 40)
 
 
@@ -69,40 +68,56 @@ class InThePlane(RunTest):
 
 
 class InThreeDimensions(ProgramTest):
-    """Nodes 47 mm apart, of a section in 36 sectors 52 mm."""
-
-    def said(self, *settings, text=WHEEL, code=2):
-        (self.folder / "tyre.msh").write_text(SECTION)
+    def rows(self, *settings, text):
+        out = self.folder / "out"
         more = [x for s in settings for x in ("--set", s)]
-        done = run("check", self.case(text), *more)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done.stderr
+        done = run("run", self.case(text), "-o", out, "--quiet", "--overwrite", *more)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return history(out)
 
-    def test_a_post_is_refused_with_its_sizes(self):
-        said = self.said(POST, "ground.fillet=0.0005")
-        for words in ("ground.profile", "0.02 m high", "0.0471 m", "(0.1005, 0.02) m",
-                      "three dimensions"):
-            self.assertIn(words, said)
+    def test_without_poissons_ratio_a_wheel_over_a_cleat_is_the_plane_disk(self):
+        settings = ["material.poissons_ratio=0", "disk.mesh.circumferential=90", "time.end=0.08",
+                    "motion.start_x=0.0105", "time.step=3e-5", "disk.width=0.1"]
+        plane = CLEAT.replace("width = 0.10\n", "").replace("axial = 3\n", "")
+        flat = self.rows(*settings[:-1], text=plane)
+        solid = self.rows(*settings, text=CLEAT)
+        self.assertGreater(summary(self.folder / "out")["contact"]["clusters_solved"], 100)
+        for name in ("force_x", "force_y", "torque", "strain", "dissipation_friction"):
+            error = np.abs(solid[name] - 0.1 * flat[name]).max()
+            self.assertLess(error, 1e-9 * np.abs(solid[name]).max(), name)
+        other = self.rows(*settings, "ground.friction=0.55", text=CLEAT)["force_x"]
+        self.assertGreater(np.abs(other - solid["force_x"]).max(), 1.0)
 
-    def test_a_fillet_below_the_spacing_is_refused_with_the_one_it_takes(self):
-        step = "ground.profile=[[-9, -0.2], [0, -0.2], [0, 0], [9, 0]]"
-        said = self.said(step, "ground.fillet=0.045", "motion.start_x=-0.6")
-        for words in ("ground.fillet", "0.0471 m apart", "at least 0.0471 m",
-                      "disk.mesh.circumferential of at least 42"):
-            self.assertIn(words, said)
-        told = self.said(step, "ground.fillet=0.0472", "motion.start_x=-0.6", code=0)
-        self.assertIn("may stand 0.0063 m deep", told)
-        told = self.said(step, "ground.fillet=0.0472", "motion.start_x=-0.6",
-                         "disk.mesh.circumferential=320", code=0)
-        self.assertNotIn("may stand", told)
+    def test_the_peak_hardly_depends_on_where_the_nodes_are(self):
+        peaks = []
+        for place in (0.0, 0.003, 0.006, 0.009, 0.012):
+            rows = self.rows(f"motion.start_x={place}", text=CLEAT)
+            peaks.append(rows["force_y"][rows["time_s"] > 0.035].max())
+        self.assertLess(max(peaks) - min(peaks), 0.05 * np.mean(peaks))
+        self.assertGreater(max(peaks) - min(peaks), 1.0)
 
-    def test_the_spacing_of_a_section_is_that_of_its_sectors(self):
-        cleat = "[ground]\nprofile = [[-9, -0.2], [0, -0.2], [0, 0], [9, 0]]\nfillet = {}\n"
-        motion = TYRE.replace("speed = 0.0", "speed = 0.0\nstart_x = -0.6")
-        said = self.said(text=motion + cleat.format(0.05))
-        self.assertIn("0.0523 m apart", said)
-        self.assertIn("section.sectors of at least 38", said)
-        self.said(text=motion + cleat.format(0.053), code=0)
+    def test_an_obstacle_between_nodes_is_told_with_its_size(self):
+        done = run("check", self.case(CLEAT), "--set", "disk.mesh.circumferential=60")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for words in ("ground.profile", "0.01 m high", "(0.3, 0.01) m", "0.0314 m between"):
+            self.assertIn(words, done.stderr)
+
+    def test_a_start_with_an_obstacle_in_the_wheel_is_refused(self):
+        post = POST.replace("0.1,", "0.001,").replace("0.102,", "0.003,")
+        done = run("check", self.case(CLEAT), "--set", post, "--set", "disk.mesh.circumferential=60")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        for words in ("motion.height", "0.02002 m deep inside the body", "between the nodes"):
+            self.assertIn(words, done.stderr)
+
+    def test_a_run_goes_on_bit_for_bit_over_a_corner(self):
+        whole = self.rows("time.end=0.065", text=CLEAT)
+        out = self.folder / "parts"
+        parts = [run("run", self.case(CLEAT), "-o", out, "--set", "time.end=0.0602"),
+                 run("run", out, "--resume", "--set", "time.end=0.065")]
+        self.assertEqual([p.returncode for p in parts], [0, 0], parts[1].stderr)
+        self.assertGreater(summary(out)["contact"]["clusters_solved"], 100)
+        for name, column in history(out).items():
+            self.assertTrue(np.array_equal(column, whole[name]), name)
 
 
 if __name__ == "__main__":

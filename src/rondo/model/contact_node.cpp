@@ -87,6 +87,14 @@ void report_node(const ContactStep& s, const ContactNode& node,
 
 }  // namespace
 
+void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
+  for (auto at = active.begin(); at != active.end(); ++at)
+    std::rotate(
+        std::upper_bound(active.begin(), at, at->candidate,
+                         [](std::size_t k, const ActiveContact& c) { return k < c.candidate; }),
+        at, at + 1);
+}
+
 void ContactReport::add(const ContactReport& other) noexcept {
   impulse += other.impulse;
   angular_impulse += other.angular_impulse;

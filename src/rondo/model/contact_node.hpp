@@ -52,6 +52,10 @@ struct ContactReport {
   void add(const ContactReport& other) noexcept;
 };
 
+/// Puts together what a candidate feels, in the order of the candidates; what is of one keeps its
+/// order. By insertion, which takes no memory: what comes is nearly sorted, and short.
+void sort_by_candidate(std::vector<ActiveContact>& active) noexcept;
+
 /// Copies the works of a step's impulses.
 inline void set_contact_works(const ContactReport& report, Works& works) noexcept {
   works.contact = report.work;

@@ -64,7 +64,7 @@ double least_mass_share(const Model& model) noexcept {
 }
 
 bool has_sharp_corners(const Model& model) noexcept {
-  return model.contact && !model.solid && !model.contact->ground.corners().empty();
+  return model.contact && !model.contact->ground.corners().empty();
 }
 
 void apply_stiffness(const Model& model, std::span<const Vec2> u, std::span<Vec2> out) {

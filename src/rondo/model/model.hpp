@@ -263,7 +263,7 @@ inline const std::vector<double>& lumped_mass_of(const Model& model) noexcept {
 }
 
 /// Whether the ground has corners that may touch the body between two candidates: sharp ones, and
-/// arcs whose radius is below the spacing of the candidates. Never for wheels in three dimensions.
+/// arcs whose radius is below the spacing of the candidates.
 [[nodiscard]] bool has_sharp_corners(const Model& model) noexcept;
 
 /// Position of a node in the fixed frame at t_{n+1} [m].

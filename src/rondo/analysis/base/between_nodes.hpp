@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  How deep the ground stands in a body between its contact nodes, where arcs and blunt
-/// corners meet no segment, and edges of the ground meet no face (docs/theory.md, 4.1).
+/// corners meet no segment (docs/theory.md, 4.1).
 #pragma once
 #include "rondo/model/model.hpp"
 

@@ -347,8 +347,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   check_branches(c, s);
   set_initial_fields(c, s, shared);
   refuse_held_in_ground(c, s);
-  for (std::string told :
-       {held_outside_contact(c, s), s.model.solid ? std::string() : small_ground(c, s)})
+  for (std::string told : {held_outside_contact(c, s), small_ground(c, s)})
     if (!told.empty()) s.warnings.push_back(std::move(told));
   check_start(c, s);
   check_stability(c, s);

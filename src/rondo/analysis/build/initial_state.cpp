@@ -10,6 +10,7 @@
 #include "rondo/analysis/build/overlap.hpp"
 #include "rondo/analysis/build/solid/solid_body.hpp"
 #include "rondo/analysis/build/steady_start.hpp"
+#include "rondo/contact/intrusion.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/statics/stationary_spin.hpp"
@@ -130,11 +131,26 @@ double check_nodes(const Case& c, const std::vector<double>& size, const std::ve
   return depth.deepest;
 }
 
+/// The bend of the ground that is deepest behind an edge around a wheel in three dimensions, over
+/// the length of the edge. Its side view has no other cells that the ground may stand in.
+GroundInside find_bend_inside(const Setup& s, const std::vector<Vec2>& x) {
+  GroundInside out;
+  for (const auto& [a, b] : s.model.contact->edges) {
+    const Vec2 from = x[at(a)], to = x[at(b)];
+    const contact::Intrusion found =
+        contact::deepest_inside(s.model.contact->ground, from, to, norm(s.model.reference[at(a)]));
+    const double length = norm(to - from);
+    if (found.depth / length > out.depth / out.size) out = {found.depth, length, found.at, a};
+  }
+  return out;
+}
+
 /// Ground between the nodes that stands as deep in a cell is met by no node: refused as well.
 /// @param told depth that the nodes were said to be in the ground [m]
 void check_ground_inside(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
                          double told, Setup& s) {
-  const GroundInside found = find_ground_inside(s, x, size);
+  const GroundInside found =
+      s.model.solid ? find_bend_inside(s, x) : find_ground_inside(s, x, size);
   const std::string where = fmt::format("({:.6g}, {:.6g})", found.place.x, found.place.y);
   if (found.depth > 0.5 * found.size) {
     const bool free = in_fixed_frame(s.model, at(found.node));
@@ -197,8 +213,7 @@ void check_start(const Case& c, Setup& s) {
   const std::vector<Vec2> x = start_positions(s);
   if (s.model.contact) {
     const double told = check_nodes(c, size, x, s);
-    // In three dimensions ground that fits between nodes is refused, wherever the wheel starts.
-    if (!s.model.solid) check_ground_inside(c, size, x, told, s);
+    check_ground_inside(c, size, x, told, s);
   }
   if (s.mesh.is_solid()) return;  // its elements lie beside each other as they are made
   refuse_overlaps(c, {s.mesh, x, s.model.surfaces.has_value()}, s.warnings);

@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
+#include "rondo/integrators/fused/solid/solid_corner_contact.hpp"
 #include "rondo/integrators/fused/solid/solid_plan.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
 #include "rondo/integrators/general/step_traps.hpp"
@@ -16,16 +18,6 @@
 
 namespace rondo::dynamics {
 namespace {
-
-/// Insertion, for it keeps the two contacts of a node in their order and takes no memory; what
-/// comes is nearly sorted, and short.
-void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
-  for (auto at = active.begin(); at != active.end(); ++at)
-    std::rotate(
-        std::upper_bound(active.begin(), at, at->candidate,
-                         [](std::size_t k, const ActiveContact& c) { return k < c.candidate; }),
-        at, at + 1);
-}
 
 std::size_t n_tails(const Model& model) noexcept {
   return (model.implicit ? 1U : 0U) + (has_massless_contact(model) ? 1U : 0U);
@@ -54,7 +46,12 @@ BatchIntegrator::BatchIntegrator(const Model& model, const State& start, std::si
   RONDO_DEMAND(start.u.size() == model.n_nodes() && start.v_next.size() == model.n_nodes() &&
                    start.u.components() == model.components(),
                start.u.size(), start.v_next.size(), start.u.components(), model.n_nodes());
-  if (has_sharp_corners(model)) corners_.emplace(model);
+  if (has_sharp_corners(model)) {
+    if (model.solid)
+      corners_ = std::make_unique<SolidCornerContact>(model);
+    else
+      corners_ = std::make_unique<CornerContact>(model);
+  }
   if (!model.rim) return;
   rim_.emplace(model);
   rim_->restore(start.step, start.rim);
@@ -300,7 +297,7 @@ SavedState BatchIntegrator::save() const {
   }
   saved.window.resize(window_numbers(model_));
   save_fields(saved);
-  if (corners_) saved.impulses = corners_->coupled().kept;
+  if (corners_) saved.impulses = corners_->kept();
   for (const auto& tail : tails_) tail->save(saved);
   if (rubber_work_) {
     saved.internal_work = rubber_work_->save();
@@ -322,7 +319,7 @@ void BatchIntegrator::restore(const SavedState& saved) {
   step_ = saved.step;
   if (rim_) rim_->restore(saved.step, saved.rim);
   restore_fields(saved);
-  if (corners_) corners_->coupled().kept = saved.impulses;
+  if (corners_) corners_->kept() = saved.impulses;
   for (const auto& tail : tails_) tail->restore(saved);
   if (rubber_work_) {
     rubber_work_->restore(saved.internal_work);
@@ -334,7 +331,7 @@ void BatchIntegrator::restore(const SavedState& saved) {
 
 std::vector<contact::ProblemFile> BatchIntegrator::take_difficult() {
   std::vector<contact::ProblemFile> problems;
-  if (corners_) problems = corners_->coupled().difficult.take();
+  if (corners_) problems = corners_->take_difficult();
   for (const auto& tail : tails_)
     for (contact::ProblemFile& problem : tail->take_difficult())
       problems.push_back(std::move(problem));

@@ -9,7 +9,7 @@
 
 #include "rondo/core/barrier.hpp"
 #include "rondo/core/threads.hpp"
-#include "rondo/integrators/fused/corner_contact.hpp"
+#include "rondo/integrators/fused/held_contact.hpp"
 #include "rondo/integrators/fused/rubber/rubber_work.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/integrators/fused/tail/step_tail.hpp"
@@ -30,7 +30,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
  protected:
   struct Batch {
     std::span<const StepContext> steps;
-    PartialStep* parts;    ///< (steps, n_parts_): to be filled, but for those of CornerContact
+    PartialStep* parts;    ///< (steps, n_parts_): to be filled, but for those of HeldContact
     long long first;       ///< number of the last step made before
     RubberEnergy* rubber;  ///< (steps) to be filled, where there is rubber
   };
@@ -62,7 +62,9 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   /// one who makes their steps: corners_within() then tells of whom. Else steps are made one by
   /// one.
   virtual bool hold_within(std::span<const int> candidates) noexcept;
-  [[nodiscard]] CornerContact* corners_within() noexcept { return within_ ? &*corners_ : nullptr; }
+  [[nodiscard]] HeldContact* corners_within() noexcept {
+    return within_ ? corners_.get() : nullptr;
+  }
 
   /// In the constructor, where the model has such tails; in the order in which they are worked.
   void add_tail(std::unique_ptr<StepTail> tail);
@@ -79,7 +81,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   }
 
   const Model& model_;
-  const std::size_t n_parts_;  ///< the last one is of CornerContact, if there are sharp corners;
+  const std::size_t n_parts_;  ///< the last one is of HeldContact, if there are sharp corners;
                                ///< those before it are of the tails
   long long step_;             ///< number of the last step made
 
@@ -111,7 +113,7 @@ class BatchIntegrator : public Integrator, public Resumable, protected Candidate
   std::vector<RubberEnergy> rubber_energy_;  ///< (steps of a batch) of rubber alone
   std::optional<RubberWork> rubber_work_;
   RubberForces* rubber_forces_ = nullptr;
-  std::optional<CornerContact> corners_;
+  std::unique_ptr<HeldContact> corners_;
   std::optional<SolidRim> rim_;
   std::vector<std::unique_ptr<StepTail>> tails_;
   kernels::WheelWay way_{};  ///< factors of the step in hand, on a loaded rim

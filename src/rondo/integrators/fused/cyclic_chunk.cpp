@@ -120,8 +120,8 @@ class CyclicChunk::InPass final : public CandidateFields {
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override {
     return chunk_.motion_of(chunk_.plan_.place[candidate], work_.now);
   }
-  void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override {
-    chunk_.set_motion(chunk_.plan_.place[candidate], work_.next, v, u);
+  void move(std::size_t candidate, Vec3 v, Vec3 u) noexcept override {
+    chunk_.set_motion(chunk_.plan_.place[candidate], work_.next, v.plane(), u.plane());
   }
 
  private:
@@ -185,7 +185,7 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
 }
 
 void CyclicChunk::pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride,
-                       CornerContact* corners) noexcept {
+                       HeldContact* corners) noexcept {
   begin_pass();
   const std::size_t n = steps.size();
   std::array<Work, most_steps_in_a_pass> work;

@@ -3,8 +3,8 @@
 #pragma once
 #include <span>
 
-#include "rondo/integrators/fused/corner_contact.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
+#include "rondo/integrators/fused/held_contact.hpp"
 #include "rondo/integrators/fused/ring_chunk.hpp"
 #include "rondo/model/loaded_rim.hpp"
 
@@ -22,7 +22,7 @@ class CyclicChunk : public RingChunk<2> {
   /// @param corners which hold nodes of this chunk alone; null: none. They fill the last part.
   /// @pre the halo is taken
   void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride,
-            CornerContact* corners) noexcept;
+            HeldContact* corners) noexcept;
 
   /// On a loaded rim, after pass(): u_{n+2}, once the rim's own way is known; gives the edges.
   void go_on(const kernels::WheelWay& way) noexcept;
@@ -43,8 +43,8 @@ class CyclicChunk : public RingChunk<2> {
 
  private:
   struct Work : StepInPass {
-    CornerContact* corners;  ///< null: none hold nodes of this chunk
-    PartialStep* held;       ///< their part of the step
+    HeldContact* corners;  ///< null: none hold nodes of this chunk
+    PartialStep* held;     ///< their part of the step
   };
   class InPass;  ///< the candidates during a step of a pass
   [[nodiscard]] CandidateMotion motion_of(CyclicPlace place, int field_u) const noexcept;

@@ -13,9 +13,11 @@ CandidateMotion CyclicChunk::motion_of(CyclicPlace place, int field_u) const noe
   RONDO_ASSERT(c >= 0 && c < range_.columns, place.sector, range_.first, range_.columns);
   const Complex frame = turn(c);
   const Vec2 u = at(place.row, field_u, c);
-  return {frame * u, frame * at(place.row, field_v, c),
+  return {frame * u,
+          frame * at(place.row, field_v, c),
           plan_.keeps_force ? frame * at(place.row, field_force, c) : Vec2{},
-          plan_.wheel ? frame * (u - at(place.row, field_next(), c)) : Vec2{}};
+          plan_.wheel ? frame * (u - at(place.row, field_next(), c)) : Vec2{},
+          {}};
 }
 
 void CyclicChunk::set_motion(CyclicPlace place, int field_u, Vec2 v, Vec2 u) noexcept {

@@ -103,14 +103,6 @@ void CyclicIntegrator::show_changes(Share share) noexcept {
   for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].show_rows();
 }
 
-std::size_t CyclicIntegrator::chunk_of(int sector) const noexcept {
-  RONDO_ASSERT(sector >= 0 && sector < plan_.n_sectors, sector, plan_.n_sectors);
-  const auto after =
-      std::upper_bound(plan_.cut.chunks.begin(), plan_.cut.chunks.end(), sector,
-                       [](int s, const CyclicChunkRange& chunk) { return s < chunk.first; });
-  return static_cast<std::size_t>(after - plan_.cut.chunks.begin()) - 1;
-}
-
 /// All in one chunk, and out of what its neighbours advance of it.
 bool CyclicIntegrator::hold_within(std::span<const int> candidates) noexcept {
   RONDO_ASSERT(!candidates.empty(), plan_.place.size());
@@ -130,9 +122,9 @@ CandidateMotion CyclicIntegrator::motion_of(std::size_t candidate) const noexcep
   return chunks_[chunk_of(place.sector)].motion_of(place);
 }
 
-void CyclicIntegrator::move(std::size_t candidate, Vec2 v, Vec2 u) noexcept {
+void CyclicIntegrator::move(std::size_t candidate, Vec3 v, Vec3 u) noexcept {
   const CyclicPlace place = plan_.place[candidate];
-  chunks_[chunk_of(place.sector)].move(place, v, u);
+  chunks_[chunk_of(place.sector)].move(place, v.plane(), u.plane());
 }
 
 }  // namespace rondo::dynamics

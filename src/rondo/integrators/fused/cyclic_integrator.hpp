@@ -27,9 +27,8 @@ class CyclicIntegrator : public RingIntegrator<CyclicChunk, CyclicPlan> {
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
   void show_changes(Share share) noexcept override;
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
-  void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
+  void move(std::size_t candidate, Vec3 v, Vec3 u) noexcept override;
   bool hold_within(std::span<const int> candidates) noexcept override;
-  [[nodiscard]] std::size_t chunk_of(int sector) const noexcept;
 
   std::vector<std::unique_ptr<Rows>> rows_;  ///< rows as the tails see them
   std::size_t holder_ = 0;                   ///< the chunk that has all candidates near corners

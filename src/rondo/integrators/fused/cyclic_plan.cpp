@@ -121,15 +121,11 @@ void add_loads(const Model& model, const SectorStiffness& k, CyclicPlan& plan) {
   }
 }
 
-/// Strips with candidates, and the place of each candidate.
+/// Strips with candidates.
 void add_contact(const Model& model, CyclicPlan& plan) {
   find_candidates(model, plan);
-  if (model.contact) plan.place.resize(model.contact->nodes.size());
   for (int a = 0; a < plan.n_local; ++a) {
-    const int row = plan.contact_row[at(a)];
-    if (row < 0) continue;
-    const std::vector<int>& ring = plan.candidate[at(row)];
-    for (int j = 0; j < plan.n_sectors; ++j) plan.place[at(ring[at(j)])] = {a, j};
+    if (plan.contact_row[at(a)] < 0) continue;
     const int strip = a / kernels::most_rows;
     if (plan.last_contact_strip < 0) plan.first_contact_strip = strip;
     plan.last_contact_strip = strip;

@@ -20,16 +20,10 @@ struct CyclicLoad {
   std::vector<Vec2> force;  ///< (N) per pressure, in the sectors' frames             [m]
 };
 
-/// The place of a candidate.
-struct CyclicPlace {
-  int row = 0, sector = 0;
-};
-
 struct CyclicPlan : RingLayout {
   std::vector<kernels::CyclicRow> rows;  ///< (n_local)
   std::vector<kernels::CyclicEntry> entries;
   std::vector<kernels::MirrorRow> mirror;  ///< (n_local), or empty: sectors are no mirrors
-  std::vector<CyclicPlace> place;          ///< (nb) the reverse of `candidate`
   int first_contact_strip = 0, last_contact_strip = -1;
   std::vector<CyclicLoad> loads;  ///< by rows; those of a strip are one after the other
   std::vector<int> load_of;       ///< (loads) CyclicLoad::load

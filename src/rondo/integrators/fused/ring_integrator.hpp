@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/integrators/fused/ring_layout.hpp"
 
@@ -61,6 +62,15 @@ class RingIntegrator : public BatchIntegrator {
   void save_active(std::vector<ActiveContact>& active) const noexcept final {
     for (const Chunk& chunk : chunks_)
       active.insert(active.end(), chunk.active().begin(), chunk.active().end());
+  }
+
+  /// The chunk whose own nodes are those of this sector.
+  [[nodiscard]] std::size_t chunk_of(int sector) const noexcept {
+    RONDO_ASSERT(sector >= 0 && sector < plan_.n_sectors, sector, plan_.n_sectors);
+    const auto after =
+        std::upper_bound(plan_.cut.chunks.begin(), plan_.cut.chunks.end(), sector,
+                         [](int s, const CyclicChunkRange& chunk) { return s < chunk.first; });
+    return static_cast<std::size_t>(after - plan_.cut.chunks.begin()) - 1;
   }
 
   const Plan plan_;

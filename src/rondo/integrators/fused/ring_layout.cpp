@@ -99,6 +99,7 @@ void find_candidates(const Model& model, RingLayout& layout) {
       layout.candidate.emplace_back(at(layout.n_sectors), -1);
     }
     layout.candidate[at(row)][at(node / layout.nodes_per_sector)] = static_cast<int>(i);
+    layout.place.push_back({a, node / layout.nodes_per_sector});
   }
   for (const std::vector<int>& ring : layout.candidate)
     RONDO_DEMAND(std::find(ring.begin(), ring.end(), -1) == ring.end(), ring.size());

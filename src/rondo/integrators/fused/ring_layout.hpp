@@ -38,6 +38,11 @@ struct RingCut {
   std::size_t n_groups = 0;
 };
 
+/// The place of a candidate.
+struct CyclicPlace {
+  int row = 0, sector = 0;
+};
+
 struct RingLayout {
   int n_local = 0, n_sectors = 0;
   int components = 2;
@@ -53,6 +58,7 @@ struct RingLayout {
   std::vector<int> needs;  ///< (strips) strip that the step before must have done before strip i
   std::vector<int> contact_row;  ///< (n_local) place in `candidate`; -1: no contact candidates
   std::vector<std::vector<int>> candidate;  ///< (contact rows, N) place in ContactModel::nodes
+  std::vector<CyclicPlace> place;           ///< (nb) the reverse of `candidate`
   RingCut cut;
 
   /// Number of a node in the body.
@@ -101,7 +107,8 @@ void set_stride(RingLayout& layout) noexcept;
 /// (nodes_per_sector) row of each node of a sector; -1 where it is held.
 std::vector<int> rows_of_nodes(const RingLayout& layout);
 
-/// Fills contact_row and candidate: the candidates must be the same local nodes in every sector.
+/// Fills contact_row, candidate and place: the candidates must be the same local nodes in every
+/// sector.
 void find_candidates(const Model& model, RingLayout& layout);
 
 }  // namespace rondo::dynamics

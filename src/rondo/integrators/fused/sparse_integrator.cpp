@@ -229,9 +229,9 @@ CandidateMotion SparseIntegrator::motion_of(std::size_t candidate) const noexcep
           rubber_ && !plan_.wheel ? force_on(before, row) : Vec2{}};
 }
 
-void SparseIntegrator::move(std::size_t candidate, Vec2 v, Vec2 u) noexcept {
+void SparseIntegrator::move(std::size_t candidate, Vec3 v, Vec3 u) noexcept {
   const auto row = static_cast<std::size_t>(plan_.row[candidate]);
-  put(motion_.data() + motion_at(row), v);
+  put(motion_.data() + motion_at(row), v.plane());
   if (plan_.wheel) return;
   double* now = u_[parity(step_)].data();
   now[2 * row] = u.x;

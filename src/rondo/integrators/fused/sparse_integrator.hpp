@@ -61,7 +61,7 @@ class SparseIntegrator : public BatchIntegrator {
   void restore_fields(const SavedState& saved) noexcept override;
   void save_active(std::vector<ActiveContact>& active) const noexcept override;
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
-  void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
+  void move(std::size_t candidate, Vec3 v, Vec3 u) noexcept override;
   /// The place of a row's v_x in motion_.
   [[nodiscard]] std::size_t motion_at(std::size_t row) const noexcept;
   /// Which u is u_{n+1}.

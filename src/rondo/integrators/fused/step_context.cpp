@@ -89,6 +89,33 @@ void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& f
   sums[kernels::wheel_momentum_y] += node.mass * change.y;
 }
 
+void correct_sums(const StepContext& step, Complex axes, const SolidContactNode& node, Vec3 after,
+                  const NodeForcesOf<Vec3>& forces, StepSums& sums) noexcept {
+  const kernels::StepFactors& f = step.factors;
+  const Vec2 pull = conj(axes) * Vec2{f.pull_x, f.pull_y};
+  const Vec3 acceleration(Complex{f.rate_x, f.rate_y} * node.arm.plane() + pull, step.axial.pull);
+  const Vec3 change = after - node.free;
+  sums[kernels::sum_frame] += node.mass * dot(change, acceleration);
+  sums[kernels::sum_mass] += node.mass * dot(change, after + node.free + 2.0 * node.before);
+  sums[kernels::sum_stiffness] += dot(change, forces.change);
+  sums[kernels::sum_mean_force] += dot(change, forces.internal);
+  sums[kernels::sum_load] += dot(change, forces.load);
+}
+
+void correct_wheel_sums(Complex axes, const SolidContactNode& node, Vec3 after,
+                        const NodeForcesOf<Vec3>& forces, StepSums& sums) noexcept {
+  const Vec3 change = after - node.free;
+  const Vec3 momentum = node.mass * (axes * change);
+  sums[kernels::wheel_force_after] += dot(forces.elastic.plane(), change.plane());
+  sums[kernels::wheel_force_across] += cross(forces.elastic.plane(), change.plane());
+  sums[kernels::wheel_mass_mean] += node.mass * dot(forces.moved, change);
+  sums[kernels::wheel_change_mean] += dot(forces.change, change);
+  sums[kernels::wheel_momentum_x] += momentum.x;
+  sums[kernels::wheel_momentum_y] += momentum.y;
+  sums[kernels::wheel_momentum_z] += momentum.z;
+  sums[kernels::wheel_load] += dot(change, forces.load);
+}
+
 namespace {
 
 StepSums add_up(std::span<const PartialStep> parts) noexcept {

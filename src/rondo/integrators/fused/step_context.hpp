@@ -29,7 +29,7 @@ struct StepContext {
   AxialFactors axial;                             ///< in three dimensions
   std::optional<SolidContactStep> solid_contact;  ///< instead of `contact`, in three dimensions
   const double* pressures = nullptr;  ///< Model::pressures, or SolidBody::pressures, at t_n [Pa]
-  /// (nb) candidates whose contacts are solved by CornerContact; null: none.
+  /// (nb) candidates whose contacts are solved by HeldContact; null: none.
   const char* held = nullptr;
 };
 
@@ -55,14 +55,16 @@ struct PartialStep {
   ContactReport contact;
 };
 
-/// Forces on a node, in the frame of its vectors [N/m].
-struct NodeForces {
-  Vec2 change{};  ///< K u_{n+1} - K u_n, with β only
-  Vec2 load{};
-  Vec2 elastic{};   ///< K u_{n+1}, with a loaded rim only
-  Vec2 internal{};  ///< f at u_{n+1}, with rubber and no loaded rim only
-  Vec2 moved{};     ///< u_{n+1} - u_n [m], with a loaded rim only
+/// Forces on a node, in the frame of its vectors [N/m], [N].
+template <class Vec>
+struct NodeForcesOf {
+  Vec change{};  ///< K u_{n+1} - K u_n, with β only
+  Vec load{};
+  Vec elastic{};   ///< K u_{n+1}, with a loaded rim only
+  Vec internal{};  ///< f at u_{n+1}, with nonlinear forces and no loaded rim only
+  Vec moved{};     ///< u_{n+1} - u_n [m], with a loaded rim only
 };
+using NodeForces = NodeForcesOf<Vec2>;
 
 /// Adds to the sums, which were made with the velocity free of contact, what the impulse changed.
 /// @param node  arm, velocities before and without impulse; `after`: v⁺.
@@ -71,6 +73,12 @@ void correct_sums(const StepContext& step, const ContactNode& node, Vec2 after,
 /// Does the same as correct_sums() with a loaded rim.
 void correct_wheel_sums(const ContactNode& node, Vec2 after, const NodeForces& forces,
                         StepSums& sums) noexcept;
+
+// In three dimensions. @param axes takes the vectors of the node to the co-rotating frame
+void correct_sums(const StepContext& step, Complex axes, const SolidContactNode& node, Vec3 after,
+                  const NodeForcesOf<Vec3>& forces, StepSums& sums) noexcept;
+void correct_wheel_sums(Complex axes, const SolidContactNode& node, Vec3 after,
+                        const NodeForcesOf<Vec3>& forces, StepSums& sums) noexcept;
 
 /// The whole from its parts, in their order: compensated sums, as energies (5.1) and works (5.3).
 struct WholeStep {

@@ -102,17 +102,6 @@ ContactReport GeneralContact::solve_found(const BodyFrames& frames, Vec2 center,
   return report;
 }
 
-/// Puts together what a candidate feels, in its order, for those who add it up. In memory that is
-/// kept: std::stable_sort takes some of its own.
-void GeneralContact::sort_by_candidate(std::vector<ActiveContact>& active) {
-  order_.clear();
-  for (const ActiveContact& a : active) order_.emplace_back(a.candidate, order_.size());
-  std::sort(order_.begin(), order_.end());
-  sorted_.clear();
-  for (const auto& [candidate, place] : order_) sorted_.push_back(active[place]);
-  active.assign(sorted_.begin(), sorted_.end());
-}
-
 /// (4.8c): what one more step like the last would do to the gap, over Δt, less w_n⁻.
 double GeneralContact::turning_of(const BodyFrames& frames, const ContactRow& row,
                                   const State& state) const {

@@ -65,7 +65,6 @@ class GeneralContact {
   void add_active(const ContactRow& row, State& state) const;
   [[nodiscard]] double pressure_before(const ContactRow& row) const;
   void keep_impulses();
-  void sort_by_candidate(std::vector<ActiveContact>& active);
 
   const Model& model_;
   ContactFinder finder_;
@@ -79,8 +78,6 @@ class GeneralContact {
   contact::DelassusBuilder delassus_;
   contact::CoupledContacts coupled_;  ///< problem of one cluster; `kept` of all contacts
   Vec2 center_;
-  std::vector<std::pair<std::size_t, std::size_t>> order_;  ///< candidate, place in `active`
-  std::vector<ActiveContact> sorted_;
 };
 
 }  // namespace rondo::dynamics

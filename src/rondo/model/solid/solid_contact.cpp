@@ -33,13 +33,7 @@ struct Frame {
   }
 };
 
-/// Effect of a node's impulses on its velocity in the next step, in the axes of the wheel.
-struct Mobility {
-  Complex plane;  ///< [1/kg]
-  double axial;
-
-  [[nodiscard]] Vec3 operator*(Vec3 r) const noexcept { return {plane * r.plane(), axial * r.z}; }
-};
+using Mobility = SolidMobility;
 
 /// Rows of Q_a W Q_bᵀ.
 std::array<Vec3, 3> delassus(const Mobility& w, const Frame& a, const Frame& b) noexcept {
@@ -105,23 +99,8 @@ double friction_of(const SolidContactStep& s, const SolidContactNode& node, cons
                    std::size_t i) noexcept {
   const contact::Friction& friction = s.plane.law->friction;
   if (friction.is_constant()) return friction.constant();
-  const Vec3 place =
-      Vec3(s.plane.center, s.lateral) + s.ground.from_wheel(s.plane.rotation * node.arm);
-  return friction.coefficient({place, std::hypot(c.before.y, c.before.z), node.pressure[i]});
-}
-
-/// b of (4.2), axes of the wheel.
-Vec3 drive_of(const SolidContactStep& s, Vec3 arm) noexcept {
-  const Vec2 turning = s.plane.rotation * (s.plane.turn_minus_one * arm.plane()) / s.plane.dt;
-  return Vec3(turning, 0.0) + s.center_rate;
-}
-
-/// (x_{n+1} - x_n)/Δt, axes of the wheel.
-Vec3 velocity_before(const SolidContactStep& s, Vec3 arm, Vec3 before) noexcept {
-  const Vec2 v = before.plane();
-  const Vec2 turning =
-      s.plane.rotation * (v + s.plane.turn_back * v - s.plane.turn_back * arm.plane() / s.plane.dt);
-  return Vec3(turning, before.z) + s.center_rate_before;
+  return friction.coefficient(
+      {place_in_space(s, node.arm), std::hypot(c.before.y, c.before.z), node.pressure[i]});
 }
 
 /// v⁺, co-rotating frame; sticking is exact.
@@ -137,8 +116,7 @@ Vec3 corrected_velocity(const SolidContactStep& s, const SolidContactNode& node,
     impulse += frames[i].from(contacts[i].impulse);
   }
   if (impulse == Vec3{}) return node.free;
-  const Vec2 plane = conj(s.plane.rotation) * impulse.plane() / (node.mass * s.plane.a);
-  return node.free + Vec3(plane, impulse.z / (node.mass * s.axial_a));
+  return node.free + velocity_change(s, node.mass, impulse);
 }
 
 void add_works(const SolidContactStep& s, const SolidContactNode& node, Vec3 after, Vec3 push,
@@ -150,15 +128,6 @@ void add_works(const SolidContactStep& s, const SolidContactNode& node, Vec3 aft
   report.dissipation_friction -= r.y * mean.y + r.z * mean.z;
   report.loss_impact -= r.x * mean.x;
   report.work_rim += work - dot(r, mean);
-}
-
-void add_impulse(const SolidContactStep& s, Vec3 arm, Vec3 push, ContactReport& report) noexcept {
-  const Vec3 normal = s.ground.to_wheel({0.0, 1.0, 0.0});
-  const Vec3 moment = cross(arm, push);
-  report.impulse += s.ground.from_wheel(push);
-  report.angular_impulse += moment.z;
-  report.moment_aligning += dot(normal, moment);
-  report.moment_overturning += moment.x + s.plane.center.y * cross(normal, push).x;
 }
 
 void report_contacts(const SolidContactStep& s, const SolidContactNode& node, Vec3 after,
@@ -202,6 +171,32 @@ SolidContactStep::SolidContactStep(const Model& model, const FrameStep& f,
 SolidContactStep::SolidContactStep(const Model& model, const FrameStep& f) noexcept
     : plane(model, f), ground(model.motion.camber), lateral(f.center.z), axial_a(1.0) {}
 
+Vec3 drive_of(const SolidContactStep& s, Vec3 arm) noexcept {
+  const Vec2 turning = s.plane.rotation * (s.plane.turn_minus_one * arm.plane()) / s.plane.dt;
+  return Vec3(turning, 0.0) + s.center_rate;
+}
+
+Vec3 velocity_before(const SolidContactStep& s, Vec3 arm, Vec3 before) noexcept {
+  const Vec2 v = before.plane();
+  const Vec2 turning =
+      s.plane.rotation * (v + s.plane.turn_back * v - s.plane.turn_back * arm.plane() / s.plane.dt);
+  return Vec3(turning, before.z) + s.center_rate_before;
+}
+
+Vec3 velocity_change(const SolidContactStep& s, double mass, Vec3 impulse) noexcept {
+  const Vec2 plane = conj(s.plane.rotation) * impulse.plane() / (mass * s.plane.a);
+  return {plane, impulse.z / (mass * s.axial_a)};
+}
+
+void add_impulse(const SolidContactStep& s, Vec3 arm, Vec3 push, ContactReport& report) noexcept {
+  const Vec3 normal = s.ground.to_wheel({0.0, 1.0, 0.0});
+  const Vec3 moment = cross(arm, push);
+  report.impulse += s.ground.from_wheel(push);
+  report.angular_impulse += moment.z;
+  report.moment_aligning += dot(normal, moment);
+  report.moment_overturning += moment.x + s.plane.center.y * cross(normal, push).x;
+}
+
 Vec3 solve_contacts(const SolidContactStep& s, const SolidContactNode& node,
                     const contact::Touches& touches, std::span<ActiveContact> contacts,
                     ContactReport& report) noexcept {
@@ -220,7 +215,7 @@ Vec3 solve_contacts(const SolidContactStep& s, const SolidContactNode& node,
     c.bounce = contact::restitution_shift(*s.plane.law, c.before.x, c.before.x);
     c.friction = friction_of(s, node, c, i);
   }
-  const Mobility w{s.plane.turn / (node.mass * s.plane.a), 1.0 / (node.mass * s.axial_a)};
+  const Mobility w(s, node.mass);
   if (contacts.size() == 2)
     solve_two(w, frames, contacts, report);
   else

@@ -39,10 +39,38 @@ struct SolidContactNode {
   std::array<double, 2> pressure{};  ///< see ContactNode                          [Pa]
 };
 
-/// Position of a node along t1 and n, at which the ground is searched                [m]
+/// Position of a node along t1, n and t2                                              [m]
+inline Vec3 place_in_space(const SolidContactStep& s, Vec3 arm) noexcept {
+  return Vec3(s.plane.center, s.lateral) + s.ground.from_wheel(s.plane.rotation * arm);
+}
+/// The part of it along t1 and n, at which the ground is searched                     [m]
 inline Vec2 place_on_ground(const SolidContactStep& s, Vec3 arm) noexcept {
   return s.plane.center + s.ground.from_wheel(s.plane.rotation * arm).plane();
 }
+
+/// Effect of a node's impulses on its velocity in the next step, in the axes of the wheel.
+struct SolidMobility {
+  Complex plane;  ///< [1/kg]
+  double axial;
+
+  /// @param mass of the node [kg]
+  SolidMobility(const SolidContactStep& step, double mass) noexcept
+      : plane(step.plane.turn / (mass * step.plane.a)), axial(1.0 / (mass * step.axial_a)) {}
+  [[nodiscard]] Vec3 operator*(Vec3 r) const noexcept { return {plane * r.plane(), axial * r.z}; }
+};
+
+// Counterparts of those in the plane, in the axes of the wheel [m/s]:
+/// b of (4.2). @param arm X + u_{n+1}, co-rotating frame [m]
+[[nodiscard]] Vec3 drive_of(const SolidContactStep& step, Vec3 arm) noexcept;
+/// (x_{n+1} - x_n)/Δt. @param before v_{n+1/2}, co-rotating frame [m/s]
+[[nodiscard]] Vec3 velocity_before(const SolidContactStep& step, Vec3 arm, Vec3 before) noexcept;
+/// Change of v_{n+3/2} by an impulse of these axes, co-rotating frame. @param mass [kg]
+[[nodiscard]] Vec3 velocity_change(const SolidContactStep& step, double mass,
+                                   Vec3 impulse) noexcept;
+
+/// Adds what an impulse on a node does to the body. @param arm of the node, and `push`: axes of
+/// the wheel [m], [N·s]
+void add_impulse(const SolidContactStep& step, Vec3 arm, Vec3 push, ContactReport& report) noexcept;
 
 /// Counterpart of solve_contacts() in the plane. @pre touches.count is 1 or 2. Allocates nothing.
 [[nodiscard]] Vec3 solve_contacts(const SolidContactStep& step, const SolidContactNode& node,

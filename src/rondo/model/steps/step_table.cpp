@@ -110,10 +110,6 @@ constexpr std::array limits{
           "a wheel in three dimensions is made from a [disk] with a width, or from a [section]"},
     Limit{has::assembled, has::three_dimensions, any,
           "the stiffness of a wheel in three dimensions is applied sector by sector"},
-    Limit{has::sharp_corners, has::three_dimensions, any,
-          "the ground has sharp convex corners, which touch between nodes: a wheel in three "
-          "dimensions "
-          "has contact at its nodes only"},
     Limit{has::rubber, has::three_dimensions, any,
           "a wheel in three dimensions needs linear materials, with b-bar integration near "
           "poissons_ratio = 0.5"},

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "rondo/contact/intrusion.hpp"
-#include "rondo/core/contract.hpp"
 
 namespace rondo::study {
 namespace {
@@ -36,7 +35,6 @@ std::string small_fillet(const contact::Ground& ground, double fillet) {
 }  // namespace
 
 std::string small_ground(const Case& c, const Setup& s) {
-  RONDO_DEMAND(!s.model.solid, s.model.n_nodes());
   if (!s.model.contact || !(s.model.contact->ground.spacing() > 0.0)) return {};
   const contact::Ground& ground = s.model.contact->ground;
   std::string told = small_obstacle(ground);

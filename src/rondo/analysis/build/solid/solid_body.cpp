@@ -10,7 +10,6 @@
 
 #include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/build/rim.hpp"
-#include "rondo/analysis/build/solid/hidden_ground.hpp"
 #include "rondo/analysis/build/tyre/inflation_members.hpp"
 #include "rondo/analysis/build/tyre/wheel_at_rest.hpp"
 #include "rondo/case/case_keys.hpp"
@@ -172,7 +171,6 @@ std::vector<Vec3> solid_sector_load(const Case& c, const mesh::Mesh& mesh,
 void make_solid_body(const Case& c, int threads, Setup& s) {
   RONDO_DEMAND(s.mesh.is_solid() && !s.materials.empty(), s.mesh.n_nodes(), s.materials.size());
   const Stiffest stiffest = make_solid_model(c, s);
-  check_hidden_ground(c, s);
   choose_threads(s, threads);
   find_solid_step(c, stiffest, s);
 }

@@ -18,11 +18,11 @@ SolidChunk::SolidChunk(const Model& model, const SolidPlan& plan, const kernels:
 }
 
 /// Force of the pressures on a node of a row, in its frame.
-Vec3 SolidChunk::load_on(const Work& work, int row) const noexcept {
+Vec3 SolidChunk::load_on(const StepContext& step, int row) const noexcept {
   Vec3 load;
-  RONDO_ASSERT(plan_.loads.empty() || work.step->pressures, row, plan_.loads.size());
+  RONDO_ASSERT(plan_.loads.empty() || step.pressures, row, plan_.loads.size());
   for (std::size_t i = 0; i < plan_.loads.size(); ++i)
-    load += work.step->pressures[i] * plan_.loads[i][static_cast<std::size_t>(row)];
+    load += step.pressures[i] * plan_.loads[i][static_cast<std::size_t>(row)];
   return load;
 }
 
@@ -101,7 +101,7 @@ kernels::SolidStrip SolidChunk::strip_of(const Work& work, const SolidPlanStrip&
   s.sums = sums_of(work.place);
   if (!plan_.loads.empty())
     for (int r = 0; r < p.n_rows; ++r) {
-      const Vec3 load = load_on(work, p.first + r);
+      const Vec3 load = load_on(*work.step, p.first + r);
       s.load[r][0] = load.x, s.load[r][1] = load.y, s.load[r][2] = load.z;
     }
   return s;

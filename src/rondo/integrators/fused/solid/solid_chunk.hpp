@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 
+#include "rondo/integrators/fused/held_contact.hpp"
 #include "rondo/integrators/fused/ring_chunk.hpp"
 #include "rondo/integrators/fused/solid/solid_plan.hpp"
 
@@ -22,6 +23,12 @@ class SolidChunk : public RingChunk<3> {
   /// @pre the halo is taken
   void pass(std::span<const StepContext> steps, PartialStep* parts, std::size_t stride) noexcept;
 
+  /// One of this chunk's own nodes, by row and sector, between two passes.
+  [[nodiscard]] CandidateMotion motion_of(CyclicPlace place) const noexcept;
+  void move(CyclicPlace place, Vec3 v, Vec3 u) noexcept;
+  /// Force of the pressures on it, co-rotating frame [N].
+  [[nodiscard]] Vec3 load_on(const StepContext& step, CyclicPlace place) const noexcept;
+
   /// Weights and energies of columns in a window (SolidWindow); there is one.
   void save_window(std::span<double> numbers) const noexcept { window_->save(numbers); }
   void restore_window(std::span<const double> numbers) noexcept { window_->restore(numbers); }
@@ -38,7 +45,7 @@ class SolidChunk : public RingChunk<3> {
     const kernels::SolidRow& r = plan_.rows[static_cast<std::size_t>(row)];
     return Vec3{r.x, r.y, r.z} + u;
   }
-  [[nodiscard]] Vec3 load_on(const Work& work, int row) const noexcept;
+  [[nodiscard]] Vec3 load_on(const StepContext& step, int row) const noexcept;
   [[nodiscard]] Vec3 initial_force(const State& state, int row, int column) const noexcept;
   void load_on_rim(const State& state);
   void find_faces(int now) noexcept;
@@ -48,10 +55,6 @@ class SolidChunk : public RingChunk<3> {
   void strip(const Work& work, int i) noexcept;
   void find_touching(const Work& work, int row) noexcept;
   void solve_node(const Work& work, const Touching& t) noexcept;
-  void correct_sums(const Work& work, const Touching& t, Vec3 free, Vec3 after,
-                    StepSums& sums) const noexcept;
-  void correct_wheel_sums(const Work& work, const Touching& t, Vec3 free, Vec3 after,
-                          StepSums& sums) const noexcept;
 
   const SolidPlan& plan_;
   const kernels::SolidTable& table_;

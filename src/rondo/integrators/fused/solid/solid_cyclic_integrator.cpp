@@ -59,10 +59,19 @@ void SolidCyclicIntegrator::go_on(const kernels::WheelWay& way, long long /*step
   for (std::size_t c = share.first(n); c < share.last(n); ++c) chunks_[c].go_on(way);
 }
 
-CandidateMotion SolidCyclicIntegrator::motion_of(std::size_t) const noexcept {
-  return {};
+CandidateMotion SolidCyclicIntegrator::motion_of(std::size_t candidate) const noexcept {
+  const CyclicPlace place = plan_.place[candidate];
+  return chunks_[chunk_of(place.sector)].motion_of(place);
 }
 
-void SolidCyclicIntegrator::move(std::size_t, Vec2, Vec2) noexcept {}
+void SolidCyclicIntegrator::move(std::size_t candidate, Vec3 v, Vec3 u) noexcept {
+  const CyclicPlace place = plan_.place[candidate];
+  chunks_[chunk_of(place.sector)].move(place, v, u);
+}
+
+Vec3 SolidCyclicIntegrator::load_on(const StepContext& step, std::size_t candidate) const noexcept {
+  const CyclicPlace place = plan_.place[candidate];
+  return chunks_[chunk_of(place.sector)].load_on(step, place);
+}
 
 }  // namespace rondo::dynamics

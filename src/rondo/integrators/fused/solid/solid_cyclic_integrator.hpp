@@ -18,9 +18,10 @@ class SolidCyclicIntegrator final : public RingIntegrator<SolidChunk, SolidPlan>
   void save_fields(SavedState& saved) const noexcept override;
   void restore_fields(const SavedState& saved) noexcept override;
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
-  // These do nothing: three dimensions have no corners between two nodes here.
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
-  void move(std::size_t candidate, Vec2 v, Vec2 u) noexcept override;
+  void move(std::size_t candidate, Vec3 v, Vec3 u) noexcept override;
+  [[nodiscard]] Vec3 load_on(const StepContext& step,
+                             std::size_t candidate) const noexcept override;
 };
 
 }  // namespace rondo::dynamics

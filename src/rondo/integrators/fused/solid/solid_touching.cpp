@@ -8,6 +8,33 @@
 
 namespace rondo::dynamics {
 
+CandidateMotion SolidChunk::motion_of(CyclicPlace place) const noexcept {
+  const int c = place.sector - range_.first;
+  RONDO_ASSERT(c >= 0 && c < range_.columns, place.sector, range_.first, range_.columns);
+  const Complex axes = frame(place.row, c);
+  const Vec3 u = at(place.row, field_now(), c);
+  const Vec3 force = plan_.keeps_force ? axes * at(place.row, field_force, c) : Vec3{};
+  return {axes * u, axes * at(place.row, field_v, c), force,
+          plan_.wheel ? axes * (u - at(place.row, field_next(), c)) : Vec3{},
+          plan_.faces ? force : Vec3{}};
+}
+
+void SolidChunk::move(CyclicPlace place, Vec3 v, Vec3 u) noexcept {
+  const int c = place.sector - range_.first;
+  const Complex to_node = conj(frame(place.row, c));
+  put(place.row, field_v, c, to_node * v);
+  if (plan_.wheel) return;
+  put(place.row, field_now(), c, to_node * u);
+  if (plan_.cut.halo == Halo::ring)
+    wrap(fields(), place.row, field_now());
+  else
+    give_edges();
+}
+
+Vec3 SolidChunk::load_on(const StepContext& step, CyclicPlace place) const noexcept {
+  return frame(place.row, place.sector - range_.first) * load_on(step, place.row);
+}
+
 void SolidChunk::find_touching(const Work& work, int row) noexcept {
   const kernels::SolidRow& r = plan_.rows[static_cast<std::size_t>(row)];
   const SolidContactStep& contact = *work.step->solid_contact;
@@ -35,45 +62,10 @@ void SolidChunk::find_touching(const Work& work, int row) noexcept {
     const Vec3 place = frame(row, c) * arm(row, at(row, work.now, c));
     const contact::Touches touches = ground.touches(place_on_ground(contact, place));
     if (touches.count == 0) continue;
+    if (work.step->held && work.step->held[candidate_at(row, c)]) continue;
     touching_.push_back({row, c, touches, at(row, field_v, c),
                          plan_.keeps_force ? at(row, field_force, c) : Vec3{}});
   }
-}
-
-/// Adds to the sums, which were made with the velocity free of contact, what the impulse changed;
-/// all in the frame of the node.
-void SolidChunk::correct_sums(const Work& work, const Touching& t, Vec3 free, Vec3 after,
-                              StepSums& sums) const noexcept {
-  const kernels::SolidRow& row = plan_.rows[static_cast<std::size_t>(t.row)];
-  const kernels::StepFactors& f = work.factors.plane;
-  const Vec2 pull = conj(frame(t.row, t.column)) * Vec2{f.pull_x, f.pull_y};
-  const Vec3 place = arm(t.row, at(t.row, work.now, t.column));
-  const Vec3 acceleration(Complex{f.rate_x, f.rate_y} * place.plane() + pull,
-                          work.factors.axial_pull);
-  const Vec3 change = after - free;
-  sums[kernels::sum_frame] += row.mass * dot(change, acceleration);
-  sums[kernels::sum_mass] += row.mass * dot(change, after + free + 2.0 * t.v);
-  if (plan_.keeps_force)
-    sums[kernels::sum_stiffness] += dot(change, at(t.row, field_force, t.column) - t.force);
-  if (plan_.faces) sums[kernels::sum_mean_force] += dot(change, at(t.row, field_force, t.column));
-  if (!plan_.loads.empty()) sums[kernels::sum_load] += dot(change, load_on(work, t.row));
-}
-
-/// Does the same on a loaded rim. The velocities of contacts are turned to the axes of R_{n+1}.
-void SolidChunk::correct_wheel_sums(const Work& work, const Touching& t, Vec3 free, Vec3 after,
-                                    StepSums& sums) const noexcept {
-  const double mass = plan_.rows[static_cast<std::size_t>(t.row)].mass;
-  const Vec3 change = after - free, force = at(t.row, field_force, t.column);
-  const Vec3 moved = at(t.row, work.now, t.column) - at(t.row, work.next, t.column);
-  const Vec3 momentum = mass * (frame(t.row, t.column) * change);
-  sums[kernels::wheel_force_after] += dot(force.plane(), change.plane());
-  sums[kernels::wheel_force_across] += cross(force.plane(), change.plane());
-  sums[kernels::wheel_mass_mean] += mass * dot(moved, change);
-  sums[kernels::wheel_change_mean] += dot(force - t.force, change);
-  sums[kernels::wheel_momentum_x] += momentum.x;
-  sums[kernels::wheel_momentum_y] += momentum.y;
-  sums[kernels::wheel_momentum_z] += momentum.z;
-  if (!plan_.loads.empty()) sums[kernels::wheel_load] += dot(change, load_on(work, t.row));
 }
 
 void SolidChunk::solve_node(const Work& work, const Touching& t) noexcept {
@@ -100,10 +92,17 @@ void SolidChunk::solve_node(const Work& work, const Touching& t) noexcept {
   // The neighbour reports the contacts of its own nodes.
   if (!is_own(t.column)) return;
   PartialStep& part = part_of(work.place, t.column);
+  const Vec3 force = plan_.keeps_force ? at(t.row, field_force, t.column) : Vec3{};
+  const NodeForcesOf<Vec3> forces{.change = force - t.force,
+                                  .load = load_on(*work.step, t.row),
+                                  .elastic = force,
+                                  .internal = plan_.faces ? force : Vec3{},
+                                  .moved = u - at(t.row, work.next, t.column)};
+  const SolidContactNode own{k, row.mass, 0.0, arm(t.row, u), before, free, {}};  // in its axes
   if (plan_.wheel)
-    correct_wheel_sums(work, t, free, after, part.sums);
+    correct_wheel_sums(frame, own, after, forces, part.sums);
   else
-    correct_sums(work, t, free, after, part.sums);
+    correct_sums(*work.step, frame, own, after, forces, part.sums);
   part.contact.add(report);
   if (work.last) active_.insert(active_.end(), active.begin(), active.end());
 }

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/fused/held_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
+
+namespace rondo::dynamics {
+
+std::vector<int> places_of_candidates(const Model& model) {
+  std::vector<int> place(model.n_nodes(), -1);
+  const std::vector<int>& nodes = model.contact->nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) place[at(nodes[i])] = static_cast<int>(i);
+  return place;
+}
+
+namespace {
+
+Model boundary_of(const Model& model) {
+  RONDO_DEMAND(has_sharp_corners(model) && model.free_bodies.empty());
+  Model b;
+  b.contact = model.contact;
+  b.coupled = model.coupled;
+  b.motion = model.motion;
+  b.rim = model.rim;
+  b.scheme = model.scheme;
+  b.mass_damping = model.mass_damping;
+  b.dt = model.dt;
+  if (model.solid) b.solid.emplace();
+  std::vector<int>& nodes = b.contact->nodes;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    b.reference.push_back(model.reference[at(nodes[i])]);
+    b.mass.push_back(model.mass[at(nodes[i])]);
+    if (model.solid) b.solid->axial.push_back(model.solid->axial[at(nodes[i])]);
+    if (!model.body.empty()) b.body.push_back(model.body[at(nodes[i])]);
+    nodes[i] = static_cast<int>(i);
+  }
+  RONDO_DEMAND(b.dt > 0.0 && b.contact->tributary.size() == nodes.size(), b.dt,
+               b.contact->tributary.size(), nodes.size());
+  const std::vector<int> place = places_of_candidates(model);
+  for (mesh::Edge& edge : b.contact->edges)
+    for (int& node : edge) {
+      node = place[at(node)];
+      RONDO_DEMAND(node >= 0);
+    }
+  return b;
+}
+
+}  // namespace
+
+HeldContact::HeldContact(const Model& model)
+    : boundary_(boundary_of(model)),
+      state_(boundary_),
+      begin_(boundary_.n_nodes()),
+      wanted_(boundary_.n_nodes()),
+      is_held_(boundary_.n_nodes()) {}
+
+/// A touch is half an edge deep at the most. A node is not missed if it moves no more than twice as
+/// fast as the fastest candidate now, or two edges in the batch (a wave passes some 16 edges).
+/// Impacts are as fast as the corner is in the co-rotating frame, whose path counts besides.
+/// unseen() tells whether it was so.
+double HeldContact::reach_of(std::size_t n_steps, const CandidateFields& fields,
+                             double touch) noexcept {
+  double farthest = 0.0, fastest = 0.0;
+  for (std::size_t k = 0; k < boundary_.n_nodes(); ++k) {
+    const CandidateMotion motion = fields.motion_of(k);
+    begin_[k] = motion.u;
+    if (boundary_.solid)
+      state_.u.space()[k] = motion.u;
+    else
+      state_.u.plane()[k] = motion.u.plane();
+    const Vec3 arm = reference_at(k) + motion.u;
+    farthest = std::max(farthest, dot(arm, arm));
+    fastest = std::max(fastest, dot(motion.v, motion.v));
+  }
+  farthest_ = std::sqrt(farthest);
+  const double time = static_cast<double>(n_steps) * boundary_.dt;
+  way_ = 4.0 * touch + 2.0 * time * std::sqrt(fastest);
+  return touch + way_ + boundary_.contact->ground.bend_reach();
+}
+
+void HeldContact::look_around(std::span<const StepContext> steps, double reach) noexcept {
+  RONDO_ASSERT(!steps.empty(), boundary_.n_nodes());
+  const Vec2 first = steps.front().frame.center.plane();
+  around_ = {first, first};
+  for (const StepContext& step : steps) {
+    const Vec2 x = step.frame.center.plane();
+    around_.low = {std::min(around_.low.x, x.x), std::min(around_.low.y, x.y)};
+    around_.high = {std::max(around_.high.x, x.x), std::max(around_.high.y, x.y)};
+  }
+  const Vec2 by{farthest_ + reach, farthest_ + reach};
+  around_ = {around_.low - by, around_.high + by};
+}
+
+double HeldContact::unseen(const CandidateFields& fields, double astray) const noexcept {
+  double squared = 0.0;
+  for (std::size_t k = 0; k < boundary_.n_nodes(); ++k) {
+    const Vec3 way = fields.motion_of(k).u - begin_[k];
+    squared = std::max(squared, dot(way, way));
+  }
+  const double moved = std::sqrt(squared) + astray;
+  if (!(moved > way_)) return 0.0;
+  const auto corners =
+      boundary_.contact->ground.corners(around_.low.x - moved, around_.high.x + moved);
+  const bool near = std::ranges::any_of(corners, [&](const contact::Corner& c) {
+    return c.position.x >= around_.low.x - moved && c.position.x <= around_.high.x + moved &&
+           c.position.y >= around_.low.y - moved && c.position.y <= around_.high.y + moved;
+  });
+  return near ? moved : 0.0;
+}
+
+void HeldContact::want(const contact::Boundary& boundary, int edge, int layers) {
+  for (const int node : boundary.edges[at(edge)])
+    if (!std::exchange(wanted_[at(node)], char{1})) nodes_.push_back(node);
+  if (layers == 0) return;
+  for (const int beside : boundary.beside[at(edge)])
+    if (beside >= 0) want(boundary, beside, layers - 1);
+}
+
+void HeldContact::forget_nodes() noexcept {
+  for (const int node : nodes_) wanted_[at(node)] = 0;
+  nodes_.clear();
+}
+
+void HeldContact::save_active(std::vector<ActiveContact>& active) const {
+  active.insert(active.end(), state_.active.begin(), state_.active.end());
+}
+
+}  // namespace rondo::dynamics

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/solid/corner_finder.hpp"
+
+#include <algorithm>
+
+#include "rondo/contact/coupled/clusters.hpp"
+#include "rondo/contact/coupled/node_to_segment.hpp"
+#include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
+#include "rondo/integrators/general/readable_step.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+/// H in components along t1 and n, of a contact frame with t2, in the axes of the wheel.
+contact::SpatialBlock in_space(const GroundFrame& ground, const contact::Block& plane,
+                               double lateral) noexcept {
+  return {ground.to_wheel({plane[0], plane[1], 0.0}), ground.to_wheel({plane[2], plane[3], 0.0}),
+          ground.to_wheel({0.0, 0.0, lateral})};
+}
+
+std::uint64_t key_of_corner(std::size_t corner, int edge) noexcept {
+  return static_cast<std::uint64_t>(ContactKind::corner) << 62U |
+         static_cast<std::uint64_t>(corner) << key_bits_of_edge | static_cast<std::uint64_t>(edge);
+}
+
+}  // namespace
+
+EdgeRows edge_rows(const Model& model) {
+  RONDO_DEMAND(model.contact && model.solid && !model.contact->edges.empty());
+  const std::vector<mesh::Edge>& edges = model.contact->edges;
+  std::vector<int> start{0}, nodes;
+  for (const mesh::Edge& edge : edges) {
+    nodes.insert(nodes.end(), edge.begin(), edge.end());
+    start.push_back(static_cast<int>(nodes.size()));
+  }
+  contact::ClusterFinder finder;
+  const contact::Clusters& rows = finder.find(start, nodes, model.n_nodes());
+  std::vector<std::array<int, 2>> in_rows;
+  EdgeRows out;
+  std::vector<int> row_of_node(model.n_nodes(), -1);
+  for (std::size_t row = 0; row < rows.size(); ++row) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const int i : rows[row]) {
+      const auto [a, b] = edges[at(i)];
+      in_rows.push_back({a, b});
+      row_of_node[at(a)] = row_of_node[at(b)] = static_cast<int>(row);
+      shortest = std::min(
+          shortest, norm(reference_of<Vec3>(model, at(b)) - reference_of<Vec3>(model, at(a))));
+    }
+    out.deepest.insert(out.deepest.end(), rows[row].size(), 0.5 * shortest);
+  }
+  out.boundary = contact::make_boundary(std::move(in_rows), row_of_node);
+  return out;
+}
+
+CornerFinder::CornerFinder(const Model& model)
+    : model_(model),
+      ground_(model.motion.camber),
+      edges_(edge_rows(model)),
+      deepest_(std::ranges::max(edges_.deepest)),
+      candidate_(model.n_nodes(), -1),
+      places_(model.n_nodes()) {
+  RONDO_DEMAND(has_sharp_corners(model) && model.solid.has_value());
+  for (std::size_t i = 0; i < model.contact->nodes.size(); ++i)
+    candidate_[at(model.contact->nodes[i])] = static_cast<int>(i);
+  for (const auto& [a, b] : edges_.boundary.edges)
+    RONDO_DEMAND(candidate_[at(a)] >= 0 && candidate_[at(b)] >= 0, a, b);
+}
+
+void CornerFinder::find_near(double wider, std::vector<Near>& near) const {
+  near.clear();
+  const contact::Ground& ground = model_.contact->ground;
+  const contact::Corner* const first = ground.corners().data();
+  for (std::size_t i = 0; i < edges_.boundary.edges.size(); ++i) {
+    const Vec2 a = places_[at(edges_.boundary.edges[i][0])];
+    const Vec2 b = places_[at(edges_.boundary.edges[i][1])];
+    const double low = std::min(a.y, b.y) - wider, high = std::max(a.y, b.y) + wider;
+    if (low > ground.top()) continue;
+    for (const contact::Corner& c :
+         ground.corners(std::min(a.x, b.x) - wider, std::max(a.x, b.x) + wider))
+      if (c.position.y >= low && c.position.y <= high)
+        near.push_back(Near{static_cast<std::size_t>(&c - first), static_cast<int>(i)});
+  }
+  std::ranges::sort(near);
+}
+
+void CornerFinder::find(std::span<const Near> near, std::vector<CornerRow>& rows) {
+  rows.clear();
+  at_corners_.clear();
+  left_.clear();
+  const auto row_of = [&](const Near& n) { return edges_.boundary.body[at(n.edge)]; };
+  for (auto of = near.begin(); of != near.end();) {
+    const std::size_t corner = of->corner;
+    const int row = row_of(*of);
+    of_corner_.clear();
+    for (; of != near.end() && of->corner == corner && row_of(*of) == row; ++of)
+      of_corner_.push_back(of->edge);
+    find_corner(corner, of_corner_, at_corners_);
+  }
+  touched_.clear();
+  for (const CornerRow& row : at_corners_)
+    touched_.insert(touched_.end(), row.node.begin(), row.node.end());
+  std::ranges::sort(touched_);
+  touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
+  for (const int node : touched_) find_on_ground(node, rows);
+  rows.insert(rows.end(), at_corners_.begin(), at_corners_.end());
+}
+
+/// The corner is at a node of its edge that is on the ground: both would hold nearly the same, by
+/// different normals. @param away from the node, over the edge's length
+bool CornerFinder::is_held_by_node(int node, double away) const noexcept {
+  constexpr double nearest = 0.03;
+  return away < nearest && model_.contact->ground.touches(places_[at(node)]).count > 0;
+}
+
+/// @param edges of one row
+void CornerFinder::find_corner(std::size_t c, std::span<const int> edges,
+                               std::vector<CornerRow>& rows) {
+  const contact::Corner& corner = model_.contact->ground.corners()[c];
+  const Vec2 facing = corner.normals[0] + corner.normals[1];
+  const contact::EdgeTouches touches = contact::touch_boundary(
+      {.position = corner.position, .bend = &corner}, {edges_.boundary, places_, edges, deepest_});
+  for (int t = 0; t < touches.count; ++t) {
+    const contact::EdgeTouch& found = touches.at[at(t)];
+    if (-found.touch.gap > edges_.deepest[at(found.edge)] || dot(found.touch.normal, facing) >= 0.0)
+      continue;
+    const auto [a, b] = edges_.boundary.edges[at(found.edge)];
+    const contact::SegmentRows plane =
+        contact::segment_rows(found.touch, norm(places_[at(b)] - places_[at(a)]));
+    const double at_b = found.touch.at;
+    const std::uint64_t key = key_of_corner(c, found.edge);
+    if (is_held_by_node(at_b < 0.5 ? a : b, std::min(at_b, 1.0 - at_b))) {
+      left_.push_back(key);
+      continue;
+    }
+    CornerRow row;
+    row.kind = ContactKind::corner;
+    row.count = 2;
+    row.node = {a, b};
+    row.weight = {1.0 - at_b, at_b};
+    row.block = {in_space(ground_, plane.a, at_b - 1.0), in_space(ground_, plane.b, -at_b)};
+    row.point = contact::first_met(corner, -found.touch.normal);
+    row.key = key;
+    row.normal = found.touch.normal;
+    row.gap = found.touch.gap;
+    rows.push_back(row);
+  }
+}
+
+void CornerFinder::find_on_ground(int node, std::vector<CornerRow>& rows) const {
+  const ContactModel& contact = *model_.contact;
+  const std::size_t candidate = at(candidate_[at(node)]);
+  const contact::Touches touches = contact.ground.touches(places_[at(node)]);
+  for (int t = 0; t < touches.count; ++t) {
+    const contact::Touch& touch = touches.at[at(t)];
+    const Vec2 tangent = turn90(touch.normal);
+    CornerRow row;
+    row.kind = ContactKind::facet;
+    row.count = 1;
+    row.node = {node, -1};
+    row.weight = {1.0, 0.0};
+    row.block[0] = in_space(ground_, {touch.normal.x, touch.normal.y, tangent.x, tangent.y}, 1.0);
+    row.point = places_[at(node)];
+    row.key = 2 * candidate + at(t);
+    row.normal = touch.normal;
+    row.gap = touch.gap;
+    row.tributary = contact.tributary[candidate];
+    rows.push_back(row);
+  }
+}
+
+}  // namespace rondo::dynamics

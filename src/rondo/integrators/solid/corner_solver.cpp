@@ -1,0 +1,308 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/integrators/solid/corner_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rondo/contact/cone.hpp"
+#include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
+#include "rondo/core/keep_larger.hpp"
+#include "rondo/integrators/general/readable_step.hpp"
+
+namespace rondo::dynamics {
+namespace {
+
+using contact::KeptImpulses;
+using contact::Status;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Sweeps and steps of least squares after which a problem counts as beyond the solver.
+constexpr int most_iterations = 2000;
+
+/// Σ H_i value(node i).
+template <class Value>
+Vec3 sum_over_nodes(const CornerRow& row, Value&& value) {
+  Vec3 w;
+  for (int i = 0; i < row.count; ++i)
+    w += contact::apply(row.block[at(i)], value(at(row.node[at(i)])));
+  return w;
+}
+
+/// Σ H_j G H_lᵀ over the nodes that both contacts have.
+contact::SpatialBlock coupling_of(const SolidContactStep& step, const Model& model,
+                                  const CornerRow& j, const CornerRow& l) noexcept {
+  contact::SpatialBlock w{};
+  for (int a = 0; a < j.count; ++a)
+    for (int b = 0; b < l.count; ++b) {
+      if (j.node[at(a)] != l.node[at(b)]) continue;
+      const SolidMobility mobility(step, model.mass[at(j.node[at(a)])]);
+      const contact::SpatialBlock& of_l = l.block[at(b)];
+      const Vec3 columns[3] = {mobility * of_l[0], mobility * of_l[1], mobility * of_l[2]};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 row = j.block[at(a)][i];
+        w[i] += Vec3{dot(row, columns[0]), dot(row, columns[1]), dot(row, columns[2])};
+      }
+    }
+  return w;
+}
+
+}  // namespace
+
+CornerSolver::CornerSolver(const Model& model)
+    : model_(model),
+      finder_(model),
+      limits_{.most_iterations = std::min(most_iterations, model.coupled.most_iterations)},
+      candidate_(model.n_nodes(), -1) {
+  RONDO_DEMAND(model.dt > 0.0 && model.mass.size() == model.n_nodes(), model.dt, model.mass.size(),
+               model.n_nodes());
+  for (std::size_t i = 0; i < model.contact->nodes.size(); ++i)
+    candidate_[at(model.contact->nodes[i])] = static_cast<int>(i);
+}
+
+std::span<const CornerRow> CornerSolver::find(std::span<const CornerFinder::Near> near) {
+  finder_.find(near, rows_);
+  return rows_;
+}
+
+Vec3 CornerSolver::arm_of(const State& state, std::size_t node) const noexcept {
+  return reference_of<Vec3>(model_, node) + state.u.space()[node];
+}
+
+void CornerSolver::solve(const SolidContactStep& step, const KeptImpulses& before, State& state,
+                         ContactReport& report) {
+  if (rows_.empty()) return;
+  set_velocities(step, state);
+  set_laws(step, before, state);
+  look_for_late(step, before, state.frame.time, report);
+  node_start_.assign(1, 0);
+  nodes_.clear();
+  for (const CornerRow& row : rows_) {
+    nodes_.insert(nodes_.end(), row.node.begin(), row.node.begin() + row.count);
+    node_start_.push_back(static_cast<int>(nodes_.size()));
+  }
+  const contact::Clusters& clusters = cluster_finder_.find(node_start_, nodes_, model_.n_nodes());
+  for (std::size_t k = 0; k < clusters.size(); ++k)
+    solve_together(step, clusters[k], state, report);
+}
+
+/// w⁻ and w without impulses.
+void CornerSolver::set_velocities(const SolidContactStep& step, const State& state) {
+  for (CornerRow& row : rows_) {
+    row.before = sum_over_nodes(row, [&](std::size_t k) {
+      return velocity_before(step, arm_of(state, k), state.v.space()[k]);
+    });
+    row.free = sum_over_nodes(row, [&](std::size_t k) {
+      return drive_of(step, arm_of(state, k)) + step.plane.rotation_next * state.v_next.space()[k];
+    });
+    row.impulse = {};
+    row.status = Status::open;
+  }
+}
+
+void CornerSolver::set_laws(const SolidContactStep& step, const KeptImpulses& before,
+                            const State& state) {
+  const contact::Law& law = *step.plane.law;
+  for (CornerRow& row : rows_) {
+    row.turning = row.kind == ContactKind::corner ? turning_of(step, row, state) : 0.0;
+    row.bounce = contact::restitution_shift(law, row.before.x, row.before.x - row.turning);
+    if (law.friction.is_constant()) {
+      row.friction = law.friction.constant();
+      continue;
+    }
+    Vec3 place;
+    for (int i = 0; i < row.count; ++i)
+      place += row.weight[at(i)] * place_in_space(step, arm_of(state, at(row.node[at(i)])));
+    const double pressure =  // a line has none
+        row.tributary > 0.0 ? contact::kept_impulse(before, row.key).x / (model_.dt * row.tributary)
+                            : 0.0;
+    row.friction =
+        law.friction.coefficient({place, std::hypot(row.before.y, row.before.z), pressure});
+  }
+}
+
+/// (4.8c): what one more step like the last would do to the gap, over Δt, less w_n⁻.
+double CornerSolver::turning_of(const SolidContactStep& step, const CornerRow& row,
+                                const State& state) const {
+  std::array<Vec2, 2> to;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t k = at(row.node[i]);
+    const Vec3 velocity = velocity_before(step, arm_of(state, k), state.v.space()[k]);
+    to[i] = finder_.places()[k] + model_.dt * step.ground.from_wheel(velocity).plane();
+  }
+  const Vec2 along = to[1] - to[0];
+  const double gap = cross(row.point - to[0], along) / norm(along);
+  return (gap - row.gap) / model_.dt - row.before.x;
+}
+
+/// It may have come in beside the edge, at an end without a neighbour.
+bool CornerSolver::came_round_an_end(const CornerRow& row) const noexcept {
+  const Vec2 a = finder_.places()[at(row.node[0])];
+  const Vec2 along = finder_.places()[at(row.node[1])] - a;
+  const double length = norm(along), foot = dot(along, row.point - a) / length;
+  const double way = 1.01 * model_.dt * std::abs(row.before.y);
+  const auto edge = static_cast<std::size_t>(row.key & ((1ULL << key_bits_of_edge) - 1));
+  const auto& beside = finder_.edges().boundary.beside[edge];
+  return (foot <= way && beside[0] < 0) || (length - foot <= way && beside[1] < 0);
+}
+
+/// See GeneralContact::look_for_late.
+void CornerSolver::look_for_late(const SolidContactStep& step, const KeptImpulses& before,
+                                 double time, ContactReport& report) const {
+  const double round_off = 1e-6 * finder_.deepest(), harmless = 0.1 * finder_.deepest();
+  const auto was_found = [&](const CornerRow& row) {
+    const std::uint64_t corner = row.key >> key_bits_of_edge;
+    const auto found = std::ranges::lower_bound(
+        before, corner, {}, [](const auto& kept) { return kept.first >> key_bits_of_edge; });
+    return found != before.end() && found->first >> key_bits_of_edge == corner;
+  };
+  if (time < 1.25 * model_.dt) return;  // it may start so
+  for (const CornerRow& row : rows_) {
+    if (row.kind == ContactKind::facet || -row.gap <= std::max(report.late, harmless)) continue;
+    const double gap_before = row.gap - step.plane.dt * row.before.x;
+    if (-gap_before <= round_off + model_.dt * std::abs(row.turning) || was_found(row)) continue;
+    if (came_round_an_end(row)) continue;
+    report.late = -row.gap;
+    report.late_at = row.point;
+  }
+}
+
+void CornerSolver::make_problem(const SolidContactStep& step, Rows rows) {
+  problem_.free.clear();
+  problem_.bounce.clear();
+  problem_.friction.clear();
+  problem_.blocks.clear();
+  for (const int j : rows) {
+    const CornerRow& row = rows_[at(j)];
+    problem_.free.push_back(row.free + Vec3{row.turning, 0.0, 0.0});
+    problem_.bounce.push_back(row.bounce);
+    problem_.friction.push_back(row.friction);
+    for (const int l : rows)
+      problem_.blocks.push_back(coupling_of(step, model_, row, rows_[at(l)]));
+  }
+}
+
+/// Contacts that hold the same by many normals may be beyond the solver. Then the corner that is
+/// the least deep is left out of this step, and so on: what is left obeys the law.
+contact::CoupledResult CornerSolver::solve_problem(const SolidContactStep& step, Rows rows,
+                                                   ContactReport& report) {
+  asked_.assign(rows.begin(), rows.end());
+  const auto is_corner = [&](int j) { return rows_[at(j)].kind == ContactKind::corner; };
+  for (;;) {
+    make_problem(step, asked_);
+    impulse_.assign(asked_.size(), Vec3{});
+    status_.assign(asked_.size(), Status::open);
+    const contact::CoupledResult result =
+        contact::solve_coupled(problem_, limits_, impulse_, status_, work_);
+    const auto depth = [&](int j) { return is_corner(j) ? -rows_[at(j)].gap : infinity; };
+    const auto least = std::ranges::min_element(asked_, {}, depth);
+    if (result.converged || !is_corner(*least)) return result;
+    ++report.clusters_not_converged;
+    asked_.erase(least);
+  }
+}
+
+void CornerSolver::solve_together(const SolidContactStep& step, Rows rows, State& state,
+                                  ContactReport& report) {
+  const contact::CoupledResult result = solve_problem(step, rows, report);
+  for (std::size_t j = 0; j < asked_.size(); ++j) {
+    rows_[at(asked_[j])].impulse = impulse_[j];
+    rows_[at(asked_[j])].status = status_[j];
+  }
+  push_nodes(step, asked_, result.converged, state);
+  for (std::size_t j = 0; j < asked_.size(); ++j) {
+    CornerRow& row = rows_[at(asked_[j])];
+    finish(step, row, state, report);
+    const double mass = problem_.mass(j);
+    const double residual =
+        contact::law_residual(row.impulse, row.after + Vec3{row.turning, 0.0, 0.0}, row.bounce,
+                              row.friction, mass) /
+        mass;
+    report.residual = keep_larger(report.residual, residual);
+  }
+  if (rows.size() > 1) ++report.clusters;
+  report.clusters_not_converged += result.converged ? 0 : 1;
+  report.cluster_largest = std::max(report.cluster_largest, static_cast<int>(rows.size()));
+  report.cluster_iterations = std::max(report.cluster_iterations, result.iterations);
+}
+
+/// A node that sticks to a facet gets the velocity that w = (-bounce, 0, 0) means, so that sticking
+/// is exact.
+void CornerSolver::push_nodes(const SolidContactStep& step, Rows rows, bool converged,
+                              State& state) const {
+  for (const int j : rows) {
+    const CornerRow& row = rows_[at(j)];
+    if (row.impulse == Vec3{}) continue;
+    for (int i = 0; i < row.count; ++i) {
+      const std::size_t k = at(row.node[at(i)]);
+      state.v_next.space()[k] +=
+          velocity_change(step, model_.mass[k], contact::transposed(row.block[at(i)], row.impulse));
+    }
+  }
+  for (const int j : rows) {
+    const CornerRow& row = rows_[at(j)];
+    if (!converged || row.kind != ContactKind::facet || row.status != Status::stick) continue;
+    const std::size_t k = at(row.node[0]);
+    const Vec3 rest = contact::transposed(row.block[0], {-row.bounce, 0.0, 0.0}) -
+                      drive_of(step, arm_of(state, k));
+    state.v_next.space()[k] = conj(step.plane.rotation_next) * rest;
+  }
+}
+
+/// w⁺, works (5.3) and figures of a contact.
+void CornerSolver::finish(const SolidContactStep& step, CornerRow& row, State& state,
+                          ContactReport& report) {
+  row.after = sum_over_nodes(row, [&](std::size_t k) {
+    return drive_of(step, arm_of(state, k)) + step.plane.rotation_next * state.v_next.space()[k];
+  });
+  double work = 0.0;
+  for (int i = 0; i < row.count; ++i) {
+    const std::size_t k = at(row.node[at(i)]);
+    const Vec3 push = contact::transposed(row.block[at(i)], row.impulse);
+    work +=
+        dot(conj(step.plane.rotation) * push, 0.5 * (state.v.space()[k] + state.v_next.space()[k]));
+    add_impulse(step, step.plane.rotation * arm_of(state, k), push, report);
+  }
+  const Vec3 mean = 0.5 * (row.before + row.after), r = row.impulse;
+  report.work += work;
+  report.dissipation_friction -= r.y * mean.y + r.z * mean.z;
+  report.loss_impact -= r.x * mean.x;
+  report.work_rim += work - dot(r, mean);
+  report.penetration = std::max(report.penetration, -row.gap);
+  report.free_velocity = std::max(report.free_velocity, norm(row.free));
+  if (row.impulse.x > 0.0) {
+    ++report.nodes;
+    report.sticking += row.status == Status::stick ? 1 : 0;
+    report.length += row.tributary;
+  }
+  add_active(step, row, state);
+}
+
+/// A node on a facet is pushed along the normal, the nodes of an edge against it.
+void CornerSolver::add_active(const SolidContactStep& step, const CornerRow& row,
+                              State& state) const {
+  for (int i = 0; i < row.count; ++i) {
+    const Vec3 push = step.ground.from_wheel(contact::transposed(row.block[at(i)], row.impulse));
+    ActiveContact a;
+    a.candidate = at(candidate_[at(row.node[at(i)])]);
+    a.normal = row.kind == ContactKind::facet ? row.normal : -row.normal;
+    a.gap = row.gap;
+    a.before = row.before;
+    a.free = row.free;
+    a.after = row.after;
+    a.bounce = row.bounce;
+    a.friction = row.friction;
+    a.impulse = {dot(a.normal, push.plane()), dot(turn90(a.normal), push.plane()), push.z};
+    a.status = row.status;
+    state.active.push_back(a);
+  }
+}
+
+void CornerSolver::add_impulses_to(KeptImpulses& kept) const {
+  for (const CornerRow& row : rows_)
+    kept.emplace_back(row.key, Vec2{row.impulse.x, std::hypot(row.impulse.y, row.impulse.z)});
+  for (const std::uint64_t key : finder_.left_to_nodes()) kept.emplace_back(key, Vec2{});
+}
+
+}  // namespace rondo::dynamics
