@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/integrators/fused/corner_contact.hpp"
+#include "rondo/integrators/fused/corners/corner_contact.hpp"
+#include "rondo/integrators/fused/corners/solid_corner_contact.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
-#include "rondo/integrators/fused/solid/solid_corner_contact.hpp"
 #include "rondo/integrators/fused/solid/solid_plan.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
 #include "rondo/integrators/general/step_traps.hpp"

@@ -9,7 +9,7 @@
 
 #include "rondo/core/barrier.hpp"
 #include "rondo/core/threads.hpp"
-#include "rondo/integrators/fused/held_contact.hpp"
+#include "rondo/integrators/fused/corners/held_contact.hpp"
 #include "rondo/integrators/fused/rubber/rubber_work.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/integrators/fused/tail/step_tail.hpp"

@@ -3,8 +3,8 @@
 #pragma once
 #include <span>
 
+#include "rondo/integrators/fused/corners/held_contact.hpp"
 #include "rondo/integrators/fused/cyclic_plan.hpp"
-#include "rondo/integrators/fused/held_contact.hpp"
 #include "rondo/integrators/fused/ring_chunk.hpp"
 #include "rondo/model/loaded_rim.hpp"
 

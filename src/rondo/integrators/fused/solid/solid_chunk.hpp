@@ -5,7 +5,7 @@
 #include <optional>
 #include <span>
 
-#include "rondo/integrators/fused/held_contact.hpp"
+#include "rondo/integrators/fused/corners/held_contact.hpp"
 #include "rondo/integrators/fused/ring_chunk.hpp"
 #include "rondo/integrators/fused/solid/solid_plan.hpp"
 

@@ -45,7 +45,7 @@ class CandidateFields {
 [[nodiscard]] std::vector<int> places_of_candidates(const Model& model);
 
 /// What corners hold, in the plane (corner_contact.hpp) and in three dimensions
-/// (solid/solid_corner_contact.hpp).
+/// (solid_corner_contact.hpp).
 class HeldContact {
  public:
   virtual ~HeldContact() = default;

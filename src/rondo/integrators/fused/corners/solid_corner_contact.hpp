@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "rondo/integrators/fused/held_contact.hpp"
+#include "rondo/integrators/fused/corners/held_contact.hpp"
 #include "rondo/integrators/solid/corner_solver.hpp"
 
 namespace rondo::dynamics {

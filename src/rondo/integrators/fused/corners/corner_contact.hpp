@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "rondo/integrators/fused/held_contact.hpp"
+#include "rondo/integrators/fused/corners/held_contact.hpp"
 #include "rondo/integrators/general/general_contact.hpp"
 #include "rondo/model/pressure.hpp"
 

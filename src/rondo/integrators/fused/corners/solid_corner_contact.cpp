@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/fused/solid/solid_corner_contact.hpp"
+#include "rondo/integrators/fused/corners/solid_corner_contact.hpp"
 
 #include <algorithm>
 #include <cmath>

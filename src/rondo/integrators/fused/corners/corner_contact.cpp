@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/integrators/fused/corner_contact.hpp"
+#include "rondo/integrators/fused/corners/corner_contact.hpp"
 
 #include <algorithm>
 #include <cmath>
