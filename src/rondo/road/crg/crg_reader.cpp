@@ -135,10 +135,10 @@ CrgColumns read_columns_of(OpenFile& file, const CrgDefinition& definition,
                            const CrgSections& sections, const CrgDataPlan& plan) {
   CrgColumns columns;
   const std::size_t n_v = sections.v.size();
-  const auto fit = static_cast<double>((plan.file_size - plan.data_begin) / plan.format.width());
-  if (plan.rows)
-    columns.heights.reserve(
-        static_cast<std::size_t>(std::min(fit, *plan.rows * static_cast<double>(n_v))));
+  const std::size_t fit = (plan.file_size - plan.data_begin) / plan.format.width();
+  const double promised = plan.rows.value_or(0.0) * static_cast<double>(n_v);
+  columns.heights.reserve(promised < static_cast<double>(fit) ? static_cast<std::size_t>(promised)
+                                                              : fit);
   const auto take = [&](std::span<const double> row) {
     add_crg_row(definition, sections, row, columns);
   };
