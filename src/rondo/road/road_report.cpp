@@ -38,11 +38,13 @@ void sample_cell(const Surface& surface, std::size_t i, std::size_t j, RoadRepor
 }
 
 void compare_surfaces(const Surface& surface, RoadReport& report) noexcept {
-  const std::size_t n_u = surface.u_axis().size() - 1, n_v = surface.v_axis().size() - 1;
-  const std::size_t step = std::max<std::size_t>(1, n_u * n_v / most_cells);
+  const RoadCells cells = cells_in(surface, report.part);
+  const std::size_t n_v = cells.v_end - cells.v_begin;
+  const std::size_t n = (cells.u_end - cells.u_begin) * n_v;
+  const std::size_t step = std::max<std::size_t>(1, n / most_cells);
   double sum = 0.0;
-  for (std::size_t cell = 0; cell < n_u * n_v; cell += step)
-    sample_cell(surface, cell / n_v, cell % n_v, report, sum);
+  for (std::size_t k = 0; k < n; k += step)
+    sample_cell(surface, cells.u_begin + k / n_v, cells.v_begin + k % n_v, report, sum);
   if (report.samples > 0)
     report.rms_difference = std::sqrt(sum / static_cast<double>(report.samples));
 }
@@ -100,10 +102,29 @@ std::string missing_text(const Road& road, double share) {
                          : "");
 }
 
+std::string span_text(double from, double to) {
+  if (!std::isfinite(from)) return fmt::format("up to {:.6g} m", to);
+  if (!std::isfinite(to)) return fmt::format("from {:.6g} m on", from);
+  return fmt::format("from {:.6g} to {:.6g} m", from, to);
+}
+
+/// Empty for the whole road.
+std::string part_text(const RoadPart& part) {
+  std::string text;
+  const auto add = [&](const char* name, double from, double to) {
+    if (std::isfinite(from) || std::isfinite(to))
+      text += fmt::format("{} {} {}", text.empty() ? ", for" : " and", name, span_text(from, to));
+  };
+  add("u", part.u_from, part.u_to);
+  add("v", part.v_from, part.v_to);
+  return text.empty() ? text : text + ",";
+}
+
 }  // namespace
 
-RoadReport report_of(const Road& road, const Surface& surface) {
+RoadReport report_of(const Road& road, const Surface& surface, const RoadPart& part) {
   RoadReport report;
+  report.part = part;
   const auto missing = static_cast<double>(
       std::ranges::count_if(road.heights, [](double z) { return std::isnan(z); }));
   report.missing_share = missing / static_cast<double>(road.heights.size());
@@ -120,8 +141,8 @@ std::vector<std::string> lines_of(const Road& road, const RoadReport& report, co
           metres(road.u_last()), metres(road.u_step), across(road)),
       fmt::format("Its heights are {} to {} m, with slope and banking. {}", metres(report.lowest),
                   metres(report.highest), missing_text(road, report.missing_share)),
-      fmt::format("The largest slope of its smooth surface is {:.3g}, {}.", report.steepest.value,
-                  place_text(report.steepest)),
+      fmt::format("The largest slope of its smooth surface{} is {:.3g}, {}.",
+                  part_text(report.part), report.steepest.value, place_text(report.steepest)),
       fmt::format("The smooth surface differs from the bilinear one by at most {:.2g} m, {} "
                   "(root mean square {:.2g} m, {} samples).",
                   report.largest_difference.value, place_text(report.largest_difference),

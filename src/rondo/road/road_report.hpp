@@ -6,17 +6,14 @@
 #include <vector>
 
 #include "rondo/road/road.hpp"
+#include "rondo/road/road_part.hpp"
 #include "rondo/road/surface.hpp"
 
 namespace rondo::road {
 
-/// A value and the place where it is found.
-struct RoadPlace {
-  double value = 0.0;
-  double u = 0.0, v = 0.0;  ///< [m]
-};
-
+/// Slopes and differences are those of the part, all else of the whole road.
 struct RoadReport {
+  RoadPart part;
   double lowest = 0.0,
          highest = 0.0;          ///< of the points of the grid, slope and banking included [m]
   double missing_share = 0.0;    ///< of the heights in the file                            [-]
@@ -30,7 +27,8 @@ struct RoadReport {
 
 /// Both surfaces are compared at 3 x 3 points of a cell and at its corners: of all cells, or evenly
 /// of two million if the grid has more.
-[[nodiscard]] RoadReport report_of(const Road& road, const Surface& surface);
+[[nodiscard]] RoadReport report_of(const Road& road, const Surface& surface,
+                                   const RoadPart& part = {});
 
 /// Whole sentences: file and format, extent and grid, heights, missing ones, slopes, the difference
 /// of both surfaces, a seam where the road repeats, and what the reader noticed.

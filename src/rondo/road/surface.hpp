@@ -42,6 +42,14 @@ class Surface {
   [[nodiscard]] double height_at(std::size_t i, std::size_t j) const noexcept {
     return points_[i * v_.size() + j].height;
   }
+  /// Slopes along u and v at a point of the grid [-].
+  struct GridSlopes {
+    double u, v;
+  };
+  [[nodiscard]] GridSlopes slopes_at(std::size_t i, std::size_t j) const noexcept {
+    const Point& p = points_[i * v_.size() + j];
+    return {static_cast<double>(p.slope_u), static_cast<double>(p.slope_v)};
+  }
 
  private:
   struct Point {

@@ -78,6 +78,38 @@ TEST(RoadReport, UnevenSectionsAndOtherRulesForMissingHeights) {
             std::string::npos);
 }
 
+/// A wheel reaches a part of a road, and only this counts.
+TEST(RoadReport, SlopesOfAPart) {
+  const Road road = ramp();
+  const Surface surface(road);
+  EXPECT_EQ(report_of(road, surface, {.u_from = -7.0, .u_to = 0.4}).steepest.value, 0.0);
+  EXPECT_EQ(report_of(road, surface, {.u_from = 0.8}).steepest.value, 0.0);
+  const RoadReport report = report_of(road, surface, {.u_to = 0.55, .v_from = 0.1, .v_to = 0.2});
+  EXPECT_NEAR(report.steepest.value, 0.75, 1e-15);
+  EXPECT_EQ(report.steepest.v, 0.0);  // the cell from 0 to 0.25 m
+  EXPECT_EQ(report.samples, 3U * 16U);
+  EXPECT_EQ(lines_of(road, report, {})[2],
+            "The largest slope of its smooth surface, for u up to 0.55 m and v from 0.1 to "
+            "0.2 m, is "
+            "0.75, at u = 0.625 m, v = 0 m.");
+}
+
+/// A parabola: its slope changes by 2 a times the distance, until the limit of the slopes at the
+/// ends.
+TEST(RoadReport, SlopesThatChangeWithinALength) {
+  const Road along =
+      test::road_by([](double u, double) { return 0.5 * u * u; }, 1.0, 0.1, 21, {-0.2, 0.0, 0.2});
+  const Road across = test::road_by([](double, double v) { return 0.25 * v * v; }, 0.0, 1.0, 3,
+                                    {1.0, 1.25, 1.5, 2.0, 2.25});
+  EXPECT_NEAR(largest_slope_change(Surface(along), 0.3).value, 0.3, 1e-6);
+  EXPECT_NEAR(largest_slope_change(Surface(along), 0.35).value, 0.3, 1e-6);
+  EXPECT_EQ(largest_slope_change(Surface(along), 0.05).value, 0.0);
+  EXPECT_NEAR(largest_slope_change(Surface(across), 0.5).value, 0.25, 1e-6);
+  const RoadPlace part = largest_slope_change(Surface(across), 1.0, {.v_from = 1.6, .v_to = 1.7});
+  EXPECT_NEAR(part.value, 0.25, 1e-6);
+  EXPECT_EQ(part.v, 1.5);
+}
+
 /// Outside of the road there is nothing to compare.
 TEST(RoadReport, WhereTheRoadHasNoHeight) {
   Road road = ramp();

@@ -230,6 +230,18 @@ TEST(RoadSurface, RepeatedAndMirroredBorders) {
   }
 }
 
+/// A mirrored road has no kink at its borders: its slope across them is 0.
+TEST(RoadSurface, MirroredBordersAreLevel) {
+  const Road road = rough_road(even_v, 25);
+  const Surface surface(road, {.u = Border::reflect, .v = Border::reflect});
+  for (std::size_t j = 0; j < even_v.size(); ++j)
+    for (const double u : {road.u_first, road.u_last()})
+      EXPECT_EQ(surface.at(u, even_v[j]).slope_u, 0.0);
+  for (std::size_t i = 0; i < road.n_u(); ++i)
+    for (const double v : {even_v.front(), even_v.back()})
+      EXPECT_EQ(surface.at(surface.u_axis().position(i), v).slope_v, 0.0);
+}
+
 /// A road that ends as it begins has no kink where it repeats.
 TEST(RoadSurface, AClosedRoadRepeatsWithoutAKink) {
   const auto wave = [](double u, double) {
@@ -270,13 +282,13 @@ TEST(RoadSurface, ZeroAndNoneBeyondTheGrid) {
 TEST(RoadSurface, MissingHeightsReachAsFarAsTheirCells) {
   Road road = road_by(waves, 3.0, 0.2, 4, even_v);
   road.missing = Missing::keep;
-  road.heights[0] = road.heights[1] = test::missing_height;
+  road.heights[3] = road.heights[4] = test::missing_height;
   const Surface surface(road, {.v = Border::none});
-  EXPECT_TRUE(std::isnan(surface.bilinear(3.1, -0.4)));
-  EXPECT_TRUE(std::isnan(surface.bilinear(3.1, -0.1)));
-  EXPECT_NEAR(surface.bilinear(3.2, -0.5), waves(3.2, -0.5), 1e-15);
+  EXPECT_TRUE(std::isnan(surface.bilinear(3.1, 0.4)));
+  EXPECT_TRUE(std::isnan(surface.bilinear(3.1, 0.1)));
+  EXPECT_NEAR(surface.bilinear(3.25, 0.5), 0.75 * waves(3.2, 0.5) + 0.25 * waves(3.4, 0.5), 1e-14);
   EXPECT_NEAR(surface.bilinear(3.0, 0.0), waves(3.0, 0.0), 1e-15);
-  EXPECT_FALSE(std::isnan(surface.at(3.3, -0.3).height));
+  EXPECT_FALSE(std::isnan(surface.at(3.3, 0.3).height));
 }
 
 }  // namespace surface_test
