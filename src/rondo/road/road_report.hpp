@@ -25,8 +25,8 @@ struct RoadReport {
   std::size_t samples = 0;  ///< points where both surfaces were evaluated
 };
 
-/// Both surfaces are compared at 3 x 3 points of a cell and at its corners: of all cells, or evenly
-/// of two million if the grid has more.
+/// Both surfaces are compared at the quarters of each cell, 4 x 4 places, of more than 500,000
+/// cells at 2 x 2 of them, the first quarter and the half.
 [[nodiscard]] RoadReport report_of(const Road& road, const Surface& surface,
                                    const RoadPart& part = {});
 
