@@ -21,7 +21,7 @@ TEST(LimitedSlope, ThatOfTheParabola) {
 TEST(LimitedSlope, AtMostOnceAndAHalfTheSmallerSecant) {
   EXPECT_EQ(limited_slope(1.0, 1.0, 9.0, 1.0), 1.5);
   EXPECT_EQ(limited_slope(-9.0, 1.0, -1.0, 1.0), -1.5);
-  EXPECT_EQ(limited_slope(1.0, 1.0, -1.0, 1.0), 0.0);
+  EXPECT_EQ(limited_slope(2.0, 1.0, -1.0, 1.0), 0.0);
   EXPECT_EQ(limited_slope(1.0, 1.0, 0.0, 1.0), 0.0);
   EXPECT_EQ(limited_end_slope(4.0, 1.0, -4.0, 1.0), 6.0);
   EXPECT_EQ(limited_end_slope(1.0, 1.0, 9.0, 1.0), 0.0);  // the parabola turns back
