@@ -44,6 +44,34 @@ Jet blend(const Weights& w, double from, double to) noexcept {
   return {from + w.rise * d, w.rise_1st * d, w.rise_2nd * d};
 }
 
+/// A stretch between two neighbouring points of a line.
+struct Stretch {
+  double secant, length;  ///< [-], [m]
+};
+
+/// The two stretches at each end of a line.
+struct LineEnds {
+  Stretch first, second, before_last, last;
+};
+
+struct EndSlopes {
+  double first, last;
+};
+
+/// Slopes at the ends of a line: over the seam where the grid repeats, 0 where it is mirrored.
+EndSlopes end_slopes(Border border, const LineEnds& ends) noexcept {
+  if (border == Border::reflect) return {0.0, 0.0};
+  if (border == Border::repeat) {
+    const double slope =
+        limited_slope(ends.last.secant, ends.last.length, ends.first.secant, ends.first.length);
+    return {slope, slope};
+  }
+  const auto end_slope = [](const Stretch& last, const Stretch& next) {
+    return limited_end_slope(last.secant, last.length, next.secant, next.length);
+  };
+  return {end_slope(ends.first, ends.second), end_slope(ends.last, ends.before_last)};
+}
+
 }  // namespace
 
 Surface::Surface(const Road& road, const Edges& edges)
@@ -57,46 +85,35 @@ Surface::Surface(const Road& road, const Edges& edges)
   find_slopes_u();
 }
 
-/// Slopes at the ends of an axis: over the seam where the grid repeats, 0 where it is mirrored.
-namespace {
-struct EndSlopes {
-  double first, last;
-};
-EndSlopes end_slopes(Border border, double s_first, double h_first, double s_second,
-                     double h_second, double s_last, double h_last, double s_before,
-                     double h_before) noexcept {
-  if (border == Border::reflect) return {0.0, 0.0};
-  if (border == Border::repeat) {
-    const double slope = limited_slope(s_last, h_last, s_first, h_first);
-    return {slope, slope};
-  }
-  return {limited_end_slope(s_first, h_first, s_second, h_second),
-          limited_end_slope(s_last, h_last, s_before, h_before)};
-}
-}  // namespace
-
 void Surface::find_slopes_v(std::size_t i) {
   Point* const row = points_.data() + i * v_.size();
   const std::size_t last = v_.size() - 1;
-  const auto width = [&](std::size_t j) { return v_.position(j + 1) - v_.position(j); };
-  const auto secant = [&](std::size_t j) { return (row[j + 1].height - row[j].height) / width(j); };
-  const std::size_t second = last > 1 ? 1 : 0, before = last > 1 ? last - 2 : 0;
-  const EndSlopes ends =
-      end_slopes(v_.border(), secant(0), width(0), secant(second), width(second), secant(last - 1),
-                 width(last - 1), secant(before), width(before));
+  const auto stretch = [&](std::size_t j) {
+    const double length = v_.position(j + 1) - v_.position(j);
+    return Stretch{(row[j + 1].height - row[j].height) / length, length};
+  };
+  const EndSlopes ends = end_slopes(
+      v_.border(),
+      {stretch(0), stretch(last > 1 ? 1 : 0), stretch(last > 1 ? last - 2 : 0), stretch(last - 1)});
   row[0].slope_v = toward_zero(ends.first);
   row[last].slope_v = toward_zero(ends.last);
-  for (std::size_t j = 1; j < last; ++j)
-    row[j].slope_v = toward_zero(limited_slope(secant(j - 1), width(j - 1), secant(j), width(j)));
+  for (std::size_t j = 1; j < last; ++j) {
+    const Stretch before = stretch(j - 1), after = stretch(j);
+    row[j].slope_v =
+        toward_zero(limited_slope(before.secant, before.length, after.secant, after.length));
+  }
 }
 
 void Surface::find_slopes_u() {
   const std::size_t last = u_.size() - 1, n_v = v_.size();
   const double h = u_.position(1) - u_.position(0);
   for (std::size_t j = 0; j < n_v; ++j) {
-    const auto secant = [&](std::size_t i) { return (height_at(i + 1, j) - height_at(i, j)) / h; };
-    const EndSlopes ends = end_slopes(u_.border(), secant(0), h, secant(last > 1 ? 1 : 0), h,
-                                      secant(last - 1), h, secant(last > 1 ? last - 2 : 0), h);
+    const auto stretch = [&](std::size_t i) {
+      return Stretch{(height_at(i + 1, j) - height_at(i, j)) / h, h};
+    };
+    const EndSlopes ends =
+        end_slopes(u_.border(), {stretch(0), stretch(last > 1 ? 1 : 0),
+                                 stretch(last > 1 ? last - 2 : 0), stretch(last - 1)});
     points_[j].slope_u = toward_zero(ends.first);
     points_[last * n_v + j].slope_u = toward_zero(ends.last);
   }

@@ -181,6 +181,10 @@ TEST(CrgRefusals, References) {
   expect_said(folder, "$ROAD_CRG_FILE\nno.crg\n$\n",
               {":2:1: $ROAD_CRG_FILE = no.crg", "there is no file"});
   expect_said(folder, "$ROAD_CRG_FILE\n $crgpath/no.crg\n$\n", {":2:1:", "environment variables"});
+  expect_said(folder,
+              "$ROAD_CRG_FILE\nStra\xDF"
+              "e.crg\n$\n",
+              {":2:1: $ROAD_CRG_FILE = Stra?e.crg", "ASCII"});
   expect_said(folder, "$ROAD_CRG_FILE\n$\n", {":1:1:", "names no file"});
   EXPECT_NE(said(folder, "$ROAD_CRG_FILE\n.\n$\n").find("is a directory"), std::string::npos);
 }

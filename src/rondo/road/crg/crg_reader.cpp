@@ -59,6 +59,9 @@ fs::path referred_file(const OpenFile& file, const CrgBlock& block) {
   if (name.starts_with('$'))
     refuse_header(place, name, "environment variables are not replaced",
                   "a path, relative to the folder of this file or absolute");
+  if (std::ranges::any_of(name, [](char c) { return c < ' ' || c > '~'; }))
+    refuse_header(place, name, "OpenCRG has other characters than ASCII in comments only",
+                  "a name in ASCII: rename the file");
   const fs::path path = file.path.parent_path() / name;
   std::error_code error;
   if (!fs::exists(path, error))
@@ -86,6 +89,15 @@ void take_blocks(const OpenFile& file, bool& has_options, Chain& chain) {
   }
 }
 
+/// Whether `next` is among the files that have led to it. Adds the file that names it.
+bool is_circle(const fs::path& file, const fs::path& next, std::vector<fs::path>& seen) {
+  constexpr std::size_t most_files = 100;  // if a folder cannot be read, its files look alike
+  std::error_code error;
+  seen.push_back(fs::weakly_canonical(file, error));
+  const fs::path goal = fs::weakly_canonical(next, error);
+  return seen.size() > most_files || (!error && std::ranges::find(seen, goal) != seen.end());
+}
+
 Chain follow_references(const fs::path& first) {
   Chain chain;
   bool has_options = false;
@@ -96,10 +108,9 @@ Chain follow_references(const fs::path& first) {
     const CrgBlock* const block = chain.file.header.block("ROAD_CRG_FILE");
     if (block == nullptr) return chain;
     const fs::path next = referred_file(chain.file, *block);
-    seen.push_back(fs::weakly_canonical(chain.file.path));
-    if (std::ranges::find(seen, fs::weakly_canonical(next)) != seen.end())
+    if (is_circle(chain.file.path, next, seen))
       refuse_header({chain.file.path.string(), block->line, "$ROAD_CRG_FILE"}, next.string(),
-                    "the files refer to one another in a circle",
+                    "the files refer to one another in a circle, or more than a hundred in a row",
                     "a chain of files that ends with one that has data");
     if (chain.file.header.data_begin > 0)
       chain.notes.push_back(fmt::format("The data of {} are not used, because it refers to {}.",
