@@ -6,6 +6,7 @@ set(RONDO_PUBLIC_HEADERS
     output/run_options.hpp analysis/run.hpp analysis/build/build.hpp analysis/modes/modes.hpp
     analysis/matrices/matrices.hpp analysis/matrices/operators.hpp analysis/matrices/contact_rows.hpp
     study/pod/pod.hpp study/reduce/reduce.hpp io/run_reader.hpp
+    road/crg/crg_reader.hpp road/road_report.hpp
     mesh/mesh.hpp mesh/disk.hpp mesh/gmsh_reader.hpp
     fem/elasticity.hpp fem/assembly.hpp fem/sector_stiffness.hpp fem/stress.hpp
     contact/ground.hpp model/model.hpp model/integrator.hpp model/internal_force.hpp
@@ -22,5 +23,6 @@ set(RONDO_INCLUDED_HEADERS
     fem/hyperelastic/element.hpp fem/hyperelastic/stress.hpp modal/critical_speeds.hpp modal/modes.hpp
     contact/box_tree.hpp contact/friction.hpp contact/law.hpp contact/coupled/band.hpp contact/coupled/block.hpp contact/coupled/coupled.hpp
     contact/coupled/problem_file.hpp
+    road/axis.hpp road/road.hpp road/road_part.hpp road/surface.hpp
     model/contact_node.hpp model/ledger.hpp model/material_report.hpp model/motion.hpp model/rim_body.hpp
     model/saved_state.hpp model/scheme.hpp model/subdomains.hpp)

@@ -24,7 +24,7 @@ TIMEOUT = 900  # s for one call of a test program; what hangs has failed
 
 PROGRAMS = {"V": "verification/verification", "W": "verification/verification_long",
             "R": "verification/verification_reducibility"}
-PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "mesh", "fem", "contact", "model", "integrators",
+PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "road", "mesh", "fem", "contact", "model", "integrators",
                                            "statics", "modal", "pod", "rom", "case", "io",
                                            "output", "analysis", "study")}
 

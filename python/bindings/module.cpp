@@ -9,6 +9,7 @@
 
 #include "calls.hpp"
 #include "commands.hpp"
+#include "roads.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/build_record.hpp"
 #include "rondo/core/error.hpp"
@@ -78,5 +79,6 @@ PYBIND11_MODULE(_core, module) {
   module.def("end_calls", rondo::python::end_calls);
   py::register_exception_translator(translate);
   rondo::python::add_commands(module);
+  rondo::python::add_roads(module);
   rondo::python::add_simulation(module);
 }

@@ -15,6 +15,7 @@ from .data.pod import Pod
 from .data.run import Run
 from .data.sweep import Sweep
 from .data.validation import Validation
+from .files import Road
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -216,6 +217,13 @@ def _validation(validation: Validation, names: Sequence[str] = ()) -> Figure:
     return plot_validation(validation, names)
 
 
+def _road(road: Road, ax: Axes | None = None, u: tuple[float, float] | None = None,
+          v: tuple[float, float] | None = None) -> Axes:
+    """Heights from above; see rondo.plots.road.plot_road."""
+    from .plots.road import plot_road
+    return plot_road(road, ax, u, v)
+
+
 def report(results: str | os.PathLike[str], file: str | os.PathLike[str] | None = None) -> pathlib.Path:
     """One HTML file of a run, a sweep, a POD or the paper's study, in `file`, by default report.html
     in their directory; see rondo.reports.report."""
@@ -241,5 +249,5 @@ def attach() -> None:
     Sweep.plot_curves, Sweep.plot_spread = _curves, _spread
     Sweep.plot_traction, Sweep.plot_carpet = _traction, _carpet
     Sweep.plot_tyre_curves, Sweep.plot_friction_ellipse = _tyre_curves, _friction_ellipse
-    Validation.plot = _validation
+    Validation.plot, Road.plot = _validation, _road
     Run.report = Sweep.report = Pod.report = Paper.report = _report

@@ -50,6 +50,7 @@ NOT_RUN = [
     ("docs/reliability.md", "rondo run cases/long-spin.toml"),
     ("docs/reliability.md", "bash scripts/fuzz.sh"),
     ("docs/results.md", "xvfb-run -a pvpython tests/cli/read_fields.py"),
+    ("docs/roads.md", "cmake --build build/release --target bench_road"),
     ("docs/schemes.md", "/usr/bin/python3 bench/schemes.py"),
     ("docs/studies.md", "python3 bench/sweep.py"),
     ("docs/tyre.md", "rondo run cases/tyre-load.toml"),

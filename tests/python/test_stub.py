@@ -15,7 +15,7 @@ STUB = pathlib.Path(rondo.__file__).with_name("_core.pyi")
 BUILD = pathlib.Path(PROGRAM).resolve().parent
 SAME = {"os.PathLike": "path", "pathlib.Path": "path", "List": "list", "Sequence": "list",
         "Dict": "dict", "Tuple": "tuple", "typing.List": "list", "SupportsInt": "int",
-        "SupportsFloat": "float"}
+        "SupportsFloat": "float", "numpy.ndarray": "np.ndarray"}
 
 
 @pytest.fixture
