@@ -58,6 +58,7 @@ WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonic
   const auto keep = [&](CreepResidual of) {
     wheel.residuals.push_back(std::move(of.at_once));
     if (!wheel.creep.empty()) wheel.later.push_back(std::move(of.later));
+    wheel.one_matrix = std::move(of.one_matrix);
   };
   if (!spins.change || spins.most == 0.0) {
     wheel.largest_spin = spins.least;

@@ -202,16 +202,22 @@ bool is_semidefinite(const MatrixXcd& a) {
   return values.minCoeff() >= -1e-9 * values.maxCoeff();
 }
 
+/// Whether the first term of the creep and the others lag differently at a rate: where they do not,
+/// one matrix says all.
+bool both_creep(std::span<const CreepTerm> creep, double rate) {
+  const Complexes first = creep.front().at(rate), others = creep_at(creep.subspan(1), rate);
+  return std::abs((first * std::conj(others)).imag()) > 1e-6 * std::abs(first) * std::abs(others);
+}
+
 /// The Hermitian matrices A and B with A j_0 h_0 + B Σ j_b h_b = the answer of Z_k with K g: for
 /// the rate and its opposite these are two equations, because the answer to the opposite rate is
-/// the adjoint one. None: one of them would not be positive, or nothing creeps at this rate.
+/// the adjoint one. None: one of them would not be positive. @pre both_creep()
 std::optional<CreepPair> exact_creep(const Ring& ring, const RingHarmonic* h, int k, double spin,
                                      std::span<const CreepTerm> creep, const MatrixXcd& forces,
                                      const Parts& parts) {
   const double rate = k * spin;
   const Complexes first = creep.front().at(rate), others = creep_at(creep.subspan(1), rate);
   const Complexes determinant = first * std::conj(others) - std::conj(first) * others;
-  if (std::abs(determinant) < 1e-6 * std::abs(first) * std::abs(others)) return {};
   const auto answer = [&](const Complexes& modulus) {
     Dynamic z(ring, h, k, spin, rate);
     z.ring += (modulus - 1.0) * stiffness_of(ring, k);
@@ -372,9 +378,10 @@ CreepResidual creep_residual(const Ring& ring, std::span<const RingHarmonic> har
       z = Dynamic(ring, h, k, spin, 0.0);
     }
     std::optional<CreepPair> pair;
-    if (rolls && !is_static) pair = exact_creep(ring, h, k, spin, creep, forces, parts);
+    const bool two = rolls && !is_static && both_creep(creep, rate);
+    if (two) pair = exact_creep(ring, h, k, spin, creep, forces, parts);
     if (!pair) {
-      if (rolls && !is_static) out.one_matrix.push_back(k);
+      if (two) out.one_matrix.push_back(k);
       const MatrixXcd g = z.beyond(h, forces);
       pair = CreepPair{g, g};
     }

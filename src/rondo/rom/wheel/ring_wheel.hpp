@@ -48,6 +48,7 @@ struct WheelModel {
   std::vector<fem::ViscousBranch> branches{};
   std::vector<CreepTerm> creep{};     ///< of these and of the stiffness damping
   std::vector<RingResidual> later{};  ///< at `squares`: CreepResidual::later
+  std::vector<int> one_matrix{};      ///< CreepResidual::one_matrix of the largest spin
 };
 
 /// Energies at the end of a step, and the works in it [J/m].
