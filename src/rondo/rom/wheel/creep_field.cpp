@@ -130,10 +130,11 @@ void CreepField::step(std::span<const NodeForce> forces) noexcept {
   find_sums();
 }
 
+/// In the order of energy(), whose at_start it is in the next step to the last bit.
 double CreepField::stored(const TableShares& shares) const noexcept {
   double energy = 0.0;
-  for (std::size_t b = 0; b < terms_.size(); ++b)
-    for (std::size_t i = 0; i < n_; ++i)
+  for (std::size_t i = 0; i < n_; ++i)
+    for (std::size_t b = 0; b < terms_.size(); ++b)
       energy +=
           0.5 * terms_[b].share * dot(force_[b][i], sum(moved_[b], static_cast<int>(i), shares));
   return energy;
