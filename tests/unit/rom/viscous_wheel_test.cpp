@@ -274,5 +274,24 @@ TEST(ViscousWheels, AStandingWheelRelaxes) {
   EXPECT_GT(pressed.y, 1.05 * slow.y);
 }
 
+/// A start from a field on the ground takes its branches as relaxed: a wheel that has stood for
+/// long goes on standing.
+TEST(ViscousWheels, AStartOnTheGroundIsRelaxed) {
+  const OneBlasThread one;
+  const Disk d(6, 90);
+  const Rolling run{.modes = 20, .friction = 0.0, .spin = 0.0, .speed = 0.0, .branches = rubber()};
+  Wheel w(d, run);
+  const int n = static_cast<int>(0.8 / w.dt);
+  double force = 0.0;
+  for (int i = 0; i < n; ++i) force = w.wheel.step(w.motion.at(i)).force.y;
+  std::vector<Vec2> u(d.built.mesh.n_nodes()), v(u.size());
+  w.wheel.displacement(w.motion.at(n - 1).angle_next, u);
+  WheelMotion start = w.motion.at(n);
+  start.center_next = start.center;
+  w.wheel.start(start, u, v);
+  EXPECT_NEAR(w.wheel.force_at_start()[1], force, 2e-3 * force);
+  EXPECT_NEAR(w.wheel.step(w.motion.at(n)).force.y, force, 2e-3 * force);
+}
+
 }  // namespace viscous_wheel_test
 }  // namespace rondo::rom
