@@ -369,7 +369,7 @@ CreepResidual creep_residual(const Ring& ring, std::span<const RingHarmonic> har
   for (int k = 0; 2 * k <= ring.n_sectors(); ++k) {
     const RingHarmonic* h = find_harmonic(harmonics, k);
     const bool rolls = spin > 0.0 && k > 0 && 2 * k < ring.n_sectors();
-    const double rate = rolls ? k * spin : 0.0;
+    const double rate = rolls ? spin * k : 0.0;
     // Forces over g(iks) have the inertia over g too; of it this takes the part in phase.
     Dynamic z(ring, h, k, spin, rate, rolls ? creep_at(creep, rate).real() : 1.0);
     const bool is_static = rolls && !z.has_meaning();
