@@ -127,11 +127,27 @@ class ReducedWheel:
         ends = self.spins[[0, -1]] if len(self.spins) > 1 else self.spins
         return float(np.linalg.norm(ends))
 
-    def compliance(self, spin: float | None = None) -> np.ndarray:
+    def compliance(self, spin: float | None = None, *, later: bool = False) -> np.ndarray:
         """(N, 2C, 2C) [d, i, j]: component i of the displacement of the contact nodes of sector s + d by
         component j of a unit force on those of sector s, beyond the modes, of a force pattern that
-        stands still in space [m2/N]. spin: by default the largest."""
-        return np.tensordot(self._shares(spin), self._compliance, 1).transpose(0, 2, 1)
+        stands still in space [m2/N]. spin: by default the largest. Of a viscous wheel it answers to the
+        lagging force of the first term of the creep, with later=True to those of all others."""
+        if later and len(self.creep) == 1:
+            raise InputError(f"{self.path}: later = True: the wheel is elastic, and nothing in it is later "
+                             "(allowed: False; or the wheel of a case with [[material.viscosity]])")
+        table = self._later if later else self._compliance
+        return np.tensordot(self._shares(spin), table, 1).transpose(0, 2, 1)
+
+    @cached_property
+    def creep(self) -> np.ndarray:
+        """(terms, 2) share of the compliance and time of creep [s] of each term, of which the first one is
+        the fastest: [[1, 0]] of an elastic wheel."""
+        return self._array_or("residual/creep", np.array([[1.0, 0.0]]))
+
+    @cached_property
+    def branches(self) -> np.ndarray:
+        """(b, 2) relative modulus and time of relaxation [s] of each viscous branch; none if it is elastic."""
+        return self._array_or("material/branches", np.empty((0, 2)))
 
     def centrifugal(self, spin: float | None = None) -> np.ndarray:
         """(n_local, 2) displacement by the spin beyond the modes [m]."""
@@ -154,6 +170,10 @@ class ReducedWheel:
         return self._array("residual/compliance")
 
     @cached_property
+    def _later(self) -> np.ndarray:
+        return self._array_or("residual/compliance_later", np.empty(0))
+
+    @cached_property
     def _centrifugal(self) -> np.ndarray:
         return self._array("residual/centrifugal")
 
@@ -173,6 +193,11 @@ class ReducedWheel:
     def _array(self, name: str) -> np.ndarray:
         with opened(self.path) as file:
             found: np.ndarray = file[name][:]
+        return found
+
+    def _array_or(self, name: str, otherwise: np.ndarray) -> np.ndarray:
+        with opened(self.path) as file:
+            found: np.ndarray = file[name][:] if name in file else otherwise
         return found
 
     def _complex(self, name: str) -> np.ndarray:

@@ -584,6 +584,31 @@ class Wrong(FmuTest):
         self.assertAlmostEqual(np.mean(forces[110:]) / np.mean(np.asarray(own["force_y"])[late]), 1.0,
                                delta=0.01)
 
+    def test_a_viscous_wheel(self):
+        """Its force is that of its own run, and it goes on to the same bits, with what its branches remember."""
+        case = self.folder / "viscous.toml"
+        text = (ROOT / "cases" / "cleat-load.toml").read_text()
+        begin, end = text.index("[rim]"), text.index("[ground]")
+        case.write_text(text[:begin] + text[end:])
+        loss = ["material.loss_factor=0.15", "material.loss_band=[5.0, 500.0]"]
+        self.rolls_as_its_own_run(case, True, loss)
+        fmu = Fmu(self.folder / "viscous")
+        self.addCleanup(fmu.free)
+        fmu.begin()
+
+        def lead(first, last):
+            for k in range(first, last):
+                fmu.set(hub_velocity_y=-0.5 if k < 50 else 0.0)
+                fmu.step(k * 4e-4, 4e-4)
+            return fmu.get(*fmu.references)
+
+        lead(0, 60)
+        saved = fmu.save()
+        expected = lead(60, 120)
+        fmu.restore(saved)
+        self.assertEqual(lead(60, 120), expected)
+        fmu.free_state(saved)
+
     def test_a_tread(self):
         case = self.folder / "tread.toml"
         text = (ROOT / "cases" / "cleat-load-treaded.toml").read_text()

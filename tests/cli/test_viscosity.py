@@ -4,9 +4,10 @@ rolling, wheels and tyres, and what is refused."""
 import shutil
 import unittest
 
+import h5py
 import numpy as np
 
-from program import ROOT, RunTest, contact, history, replaced, run, summary
+from program import ROOT, SMALL, RunTest, contact, history, replaced, run, summary
 from test_tyre_nonlinear import COARSE
 
 # Two equal cylinders of radius .1 m, of G = 571.5 MPa at slow strains and as much again in one branch, are one on
@@ -43,6 +44,25 @@ LOSS = ("--set", "material.loss_factor=0.15", "--set", "material.loss_band=[5.0,
 
 def branch(time, modulus=1.0):
     return ("--set", f"material.viscosity=[{{relative_modulus = {modulus}, time = {time!r}}}]")
+
+
+def heavy_cylinder():
+    """So heavy that steps are long; waves are still 80 times as fast as the ground."""
+    text = CYLINDER
+    for leaf, value in (("radial", "8"), ("circumferential", "480"), ("grading", "2.0"), ("density", "5e4")):
+        text = replaced(text, leaf, f"{leaf} = {value}")
+    return text
+
+
+def lowered(text, height, end):
+    """The same in time, lowered to a height in 8 ms."""
+    in_time = text[:text.index("[analysis]")] + f"""[time]
+end = {end}
+[output]
+snapshots = 0
+history_interval = 1e-4
+"""
+    return replaced(in_time, "speed", f"speed = 1.0\nheight = [[0.0, 0.1], [0.008, {height!r}]]")
 
 
 def tyre(load, pressure=2.2e5):
@@ -84,19 +104,8 @@ class Viscosity(RunTest):
                 self.assertAlmostEqual(s["power"]["viscosity"], s["rolling_resistance"], delta=5.0)  # 1 m/s
 
     def test_steps_in_time_lose_what_the_steady_state_does(self):
-        """Heavy, so that steps are long; waves are still 80 times as fast as the ground."""
-        text = CYLINDER
-        for leaf, value in (("radial", "8"), ("circumferential", "480"), ("grading", "2.0"), ("density", "5e4")):
-            text = replaced(text, leaf, f"{leaf} = {value}")
-        steady = self.state(text, *branch(0.0045))
-        in_time = text[:text.index("[analysis]")] + f"""[time]
-end = 0.03
-[output]
-snapshots = 0
-history_interval = 1e-4
-"""
-        in_time = replaced(in_time, "speed", f"speed = 1.0\nheight = [[0.0, 0.1], [0.008, {steady['height']!r}]]")
-        done = run("run", self.case(in_time), "-o", self.out, "--overwrite", "--quiet", *branch(0.0045))
+        steady = self.state(heavy_cylinder(), *branch(0.0045))
+        done = run("run", self.case(lowered(heavy_cylinder(), steady["height"], 0.03)), "-o", self.out, "--overwrite", "--quiet", *branch(0.0045))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLess(summary(self.out)["energy_residual_relative"], 1e-12)
         h = history(self.out)
@@ -107,6 +116,79 @@ history_interval = 1e-4
             self.assertAlmostEqual(np.mean(h[name][late]) / steady[name], 1.0, delta=bound, msg=name)
         loss = np.polyfit(h["time_s"][late], h["dissipation_viscous"][late], 1)[0]
         self.assertAlmostEqual(loss / steady["power"]["viscosity"], 1.0, delta=0.01)
+
+    def test_a_reduced_wheel_loses_what_the_steady_state_does(self):
+        """Its load, its torque and the loss of its material, at a step of which the shortest branch has 1.6 and at a
+        small one; without modes all of them are of the residual."""
+        steady = self.state(heavy_cylinder(), *branch(0.0045), "--set", "analysis.samples_per_sector=16", "--set",
+                            "analysis.massless_contact=true")
+        case = self.case(lowered(heavy_cylinder(), steady["height"], 0.06))
+        for words, bound in (((), 5e-3), (("--modes", 0), 5e-3), (("--reduced-step", 1e-4), 1.5e-3)):
+            with self.subTest(words=words):
+                done = run("run", case, "--reduced", "-o", self.out, "--overwrite", "--quiet", *branch(0.0045), *words)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertLess(summary(self.out)["energy_residual_relative"], 1e-12)
+                h = history(self.out)
+                self.assertLess(np.abs(h["integration"]).max(), 1e-12)
+                self.assertGreaterEqual(np.diff(h["dissipation_viscous"]).min(), 0.0)
+                late = h["time_s"] > 0.036
+                for name in ("force_y", "torque"):
+                    self.assertAlmostEqual(np.mean(h[name][late]) / steady[name], 1.0, delta=bound, msg=name)
+                loss = np.polyfit(h["time_s"][late], h["dissipation_viscous"][late], 1)[0]
+                self.assertAlmostEqual(loss / steady["power"]["viscosity"], 1.0, delta=bound)
+
+    def test_a_fast_reduced_wheel_has_the_inertia_of_what_no_mode_has(self):
+        """At 30 m/s without modes, where a residual without inertia has 1.3 % too much load."""
+        text = (ROOT / "cases" / "steady-rolling.toml").read_text()
+        for leaf, value in (("angular_velocity", "100.0"), ("speed", "30.0"), ("friction", "0.0"), ("mass", "0.0"),
+                            ("stiffness", "0.0")):
+            text = replaced(text, leaf, f"{leaf} = {value}")
+        words = (*LOSS, "--set", "analysis.samples_per_sector=16", "--set", "analysis.massless_contact=true")
+        steady = self.state(text, *words)
+        in_time = replaced(text[:text.index("[analysis]")], "height", "height = [[0.0, 0.31], [0.02, 0.29]]")
+        done = run("run", self.case(in_time + "[time]\nend = 0.4\n"), "--reduced", "-o", self.out, "--overwrite", "--quiet",
+                   "--modes", 0, "--set", "output.snapshots=0", *LOSS)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        h = history(self.out)
+        late = h["time_s"] > 0.3
+        self.assertAlmostEqual(np.mean(h["force_y"][late]) / steady["force_y"], 1.0, delta=1e-3)
+        loss = np.polyfit(h["time_s"][late], h["dissipation_viscous"][late], 1)[0]
+        self.assertAlmostEqual(loss / steady["power"]["viscosity"], 1.0, delta=0.02)
+
+    def test_a_reduced_wheel_resumes_and_keeps_its_file(self):
+        """Of a rim with tables and of one that moves; modes of a file are those of the same branches."""
+        free = replaced(SMALL, "height", "height = 0.3") + """[rim]
+free = ["height", "angular_velocity"]
+mass = 100.0
+inertia = 1.0
+force_y = -1.5e5
+"""
+        for text in (SMALL, free):
+            case = self.case(text)
+            words = (*LOSS, "--quiet", "--overwrite")
+            file = self.folder / "wheel.h5"
+            done = run("reduce", case, "-o", file, *LOSS)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            out, half = self.folder / "whole", self.folder / "half"
+            for directory, more in ((out, ("--reduced",)), (self.out, ("--reduced", file)),
+                                    (half, ("--reduced", "--set", "time.end=0.01"))):
+                done = run("run", case, "-o", directory, *words, *more)
+                self.assertEqual(done.returncode, 0, done.stderr)
+            done = run("run", case, "--reduced", "-o", half, "--resume", *LOSS, "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            whole, again = history(out), history(half)
+            self.assertGreater(whole["dissipation_viscous"][-1], 0.0)
+            self.assertEqual((out / "history.csv").read_bytes(), (self.out / "history.csv").read_bytes())
+            for name in whole:
+                self.assertEqual(whole[name][-1], again[name][-1], name)
+            with h5py.File(file) as f:
+                terms, branches = f["/residual/creep"][:], f["/material/branches"][:]
+                self.assertEqual(f["/residual/compliance_later"].shape, f["/residual/compliance"].shape)
+            self.assertEqual((len(terms), len(branches)), (5, 4))
+            self.assertAlmostEqual(terms[:, 0].sum(), 1.0, delta=1e-12)
+            done = run("run", case, "--reduced", file, "-o", self.out, "--overwrite")
+            self.assertEqual(done.returncode, 2)
+            self.assertIn("loss_factor", done.stderr)
 
     def test_a_run_resumes_bit_for_bit(self):
         wheel = replaced(WHEEL[:WHEEL.index("[analysis]")], "circumferential", "circumferential = 40") + """[time]
@@ -210,6 +292,25 @@ history_interval = 1e-4
         told = run("check", case, *LOSS).stdout
         self.assertIn("4 branches, tan δ within 2.4 % of 0.15 from 5 to 500 Hz", told)
         self.assertIn("0.166 and 1.89 at 100 Hz", run("check", case, *branch(0.0045)).stdout)
+
+    def test_what_a_reduced_wheel_refuses(self):
+        case = self.case(SMALL)
+        regions = ("--set", "material.region=[{layers = [3], loss_factor = 0.3}]")
+        none = ("--set", "material.region=[{layers = [3], loss_factor = 0}]")
+        stiffened = ("--set", "material.stress_stiffening=centrifugal")
+        for words, key, what in (((*LOSS, *regions), "material.region[0]", "one spectrum"),
+                                 ((*LOSS, *none), "material.region[0]", "regions differ"),
+                                 ((*LOSS, *stiffened), "material.stress_stiffening", "of the stress does not")):
+            done = run("check", case, "--reduced", *words)
+            self.assertEqual(done.returncode, 2, (words, done.stdout))
+            self.assertIn(key, done.stderr)
+            self.assertIn(what, done.stderr)
+            self.assertIn("--reduced", done.stderr)
+            self.assertEqual(run("check", case, *words).returncode, 0)
+        # Regions of other moduli with the same branches creep alike.
+        done = run("check", case, "--reduced", *LOSS, "--set", "material.region=[{layers = [3], youngs_modulus = 1e7}]")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertRegex(done.stdout, r"creep +0\.4\d+ of the compliance in .* of the shortest branch")
 
     def test_what_is_refused(self):
         small = replaced(CYLINDER, "circumferential", "circumferential = 60")

@@ -102,6 +102,38 @@ def test_rolling_harmonics_are_those_of_the_mesh(any_case):
         np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-10 * np.abs(wanted).max())
 
 
+def test_a_viscous_wheel_creeps(any_case):
+    """Both tables, with the terms of the creep at the rate of the pattern, are the harmonics of the mesh with the
+    modulus of the branches."""
+    branches = [(0.3, 2e-3), (0.2, 2e-2)]
+    elastic = rondo.ReducedWheel.of(any_case, modes=0)
+    stiffness = in_sectors(elastic, any_case, None)  # of slow strains
+    with any_case.open("a") as text:
+        for r, t in branches:
+            text.write(f"[[material.viscosity]]\nrelative_modulus = {r}\ntime = {t}\n")
+    wheel = rondo.ReducedWheel.of(any_case, modes=0)
+    rows, n = rows_of(wheel), wheel.n_sectors
+    np.testing.assert_allclose(sorted(map(tuple, wheel.branches)), sorted(branches))
+    mass = np.diag(np.repeat(wheel.mass, 2))
+    turn = np.kron(np.diag(wheel.mass), [[0.0, -1.0], [1.0, 0.0]])
+    beta = 2e-5  # of the case
+    for k in range(1, (n + 1) // 2):
+        rate = 1j * k * SPIN
+        lags = wheel.creep[:, 0] / (1 + rate * wheel.creep[:, 1])
+        modulus = 1 + rate * beta + sum(r * rate * t / (1 + rate * t) for r, t in branches)
+        np.testing.assert_allclose(lags.sum() * modulus, 1.0, atol=1e-12)
+        wave = np.exp(2j * np.pi * k * np.arange(n) / n)
+        z = modulus * np.einsum("d,idj->ij", wave, stiffness[0].reshape(len(mass), n, len(mass)))
+        z = z - SPIN**2 * (1 + k**2) * mass + 2j * k * SPIN**2 * turn
+        wanted = np.linalg.inv(z)[np.ix_(rows, rows)]
+        found = sum(lag * np.einsum("d,dij->ij", wave.conj(), wheel.compliance(later=later))
+                    for lag, later in ((lags[0], False), (lags[1:].sum(), True)))
+        np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-9 * np.abs(wanted).max())
+    assert elastic.creep.tolist() == [[1.0, 0.0]] and len(elastic.branches) == 0
+    with pytest.raises(rondo.InputError, match="elastic"):
+        elastic.compliance(later=True)
+
+
 def test_what_its_modes_mean(any_case):
     wheel = rondo.ReducedWheel.of(any_case, modes=20)
     shape, mass, k = wheel.shape, wheel.mass, wheel.harmonic

@@ -27,39 +27,58 @@ WheelSettings settings_of(const dynamics::Model& model) {
           .friction = model.contact->law.friction.constant()};
 }
 
+/// Numbers of the sums of a viscous wheel, which others do not keep.
+std::size_t works_of(const WheelModel& wheel) noexcept {
+  return wheel.creep.empty() ? 0 : 4;
+}
+
 }  // namespace
 
 /// One table for a spin that stays; else three between 0 and the largest, where a polynomial in s²
 /// errs least (Chebyshev).
 WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonics,
-                            const KnownSpins& spins, const WholeMesh* whole) {
+                            const KnownSpins& spins, const WholeMesh* whole,
+                            const WheelViscosity& viscosity) {
   const OneBlasThread one;
   WheelModel wheel;
   wheel.harmonics = std::move(harmonics);
+  wheel.branches = viscosity.branches;
+  if (!wheel.branches.empty())
+    wheel.creep = creep_terms(wheel.branches, viscosity.stiffness_damping);
   for (const Complex x : ring.place) wheel.radius = std::max(wheel.radius, std::hypot(x.re, x.im));
-  const auto residual = [&](double square) {
-    return whole ? whole_residual(ring, *whole, wheel.harmonics, square)
-                 : ring_residual(ring, wheel.harmonics, square, ResidualForm::convected);
+  const auto residual = [&](double square) -> CreepResidual {
+    if (whole) {
+      const RingResidual still = whole_residual(ring, *whole, wheel.harmonics, square);
+      return {still, wheel.creep.empty() ? RingResidual{} : still, {}};
+    }
+    if (wheel.creep.empty())
+      return {ring_residual(ring, wheel.harmonics, square, ResidualForm::convected), {}, {}};
+    return creep_residual(ring, wheel.harmonics, square, wheel.creep);
+  };
+  const auto keep = [&](CreepResidual of) {
+    wheel.residuals.push_back(std::move(of.at_once));
+    if (!wheel.creep.empty()) wheel.later.push_back(std::move(of.later));
+    wheel.one_matrix = std::move(of.one_matrix);
   };
   if (!spins.change || spins.most == 0.0) {
     wheel.largest_spin = spins.least;
     wheel.squares = {spins.least * spins.least};
-    wheel.residuals.push_back(residual(wheel.squares[0]));
+    keep(residual(wheel.squares[0]));
     return wheel;
   }
   const auto place = [](double most, int i) {
     return 0.5 * most * most * (1.0 - std::cos(std::numbers::pi * (2 * i + 1) / 6.0));
   };
   double most = spins.most;
-  RingResidual last = residual(place(most, 2));
-  while (!last.made_static.empty() && most > spins.least) {
+  CreepResidual last = residual(place(most, 2));
+  while (!last.at_once.made_static.empty() && most > spins.least) {
     most = std::max(spins.least, 0.9 * most);
     last = residual(place(most, 2));
   }
   wheel.largest_spin = most;
   for (int i = 0; i < 3; ++i) wheel.squares.push_back(place(most, i));
-  for (int i = 0; i < 2; ++i) wheel.residuals.push_back(residual(wheel.squares[at(i)]));
-  wheel.residuals.push_back(std::move(last));
+  for (int i = 0; i < 2; ++i) keep(residual(wheel.squares[at(i)]));
+  keep(std::move(last));
   return wheel;
 }
 
@@ -69,7 +88,8 @@ WheelRun::WheelRun(const dynamics::Model& model, const Ring& ring, const WheelMo
       ring_(ring),
       figures_(figures),
       candidate_(model.n_nodes(), -1),
-      wheel_(ring, wheel, model.contact->ground, settings_of(model)) {
+      wheel_(ring, wheel, model.contact->ground, settings_of(model)),
+      n_works_(works_of(wheel)) {
   RONDO_DEMAND(model.dt > 0.0, model.dt);
   for (std::size_t i = 0; i < model.contact->nodes.size(); ++i)
     candidate_[at(model.contact->nodes[i])] = static_cast<int>(i);
@@ -90,13 +110,17 @@ void WheelRun::begin(const dynamics::State& at_start) {
     rim_->start(wheel_.sums(), wheel_.force_at_start());
     frame_ = rim_->frame();
   }
-  ledger_.compare(energy_of(wheel_.energy_at_start(!rim_)));
+  const WheelEnergy energy = wheel_.energy_at_start(!rim_);
+  internal_work_.add(energy.stored);
+  ledger_.compare(energy_of(energy));
 }
 
 dynamics::StepEnergy WheelRun::energy_of(const WheelEnergy& wheel) const {
   dynamics::StepEnergy energy;
   energy.kinetic = wheel.kinetic;
   energy.strain = wheel.elastic + wheel.residual;
+  // The work against the forces, as of full runs, less what the spin softens.
+  if (is_viscous()) energy.strain += internal_work_.value() - wheel.stored;
   if (rim_) rim_->add_energy(energy);
   return energy;
 }
@@ -175,6 +199,13 @@ void WheelRun::step(dynamics::StepReport& report) {
   works.dissipation_stiffness = wheel.energy.by_stiffness + wheel.energy.by_residual;
   works.scheme += wheel.energy.scheme;
   ledger_.add_works(works);
+  if (is_viscous()) {
+    internal_work_.add(wheel.energy.internal);
+    viscous_loss_.add(wheel.energy.viscous);
+    report.material.internal_work = internal_work_.value();
+    report.material.stored_energy = wheel.energy.stored;
+    report.material.dissipation_viscous = viscous_loss_.value();
+  }
   ledger_.compare(energy_of(wheel.energy));
   report.balance = ledger_.last();
   active_.clear();
@@ -217,7 +248,8 @@ void WheelRun::fields(dynamics::State& state) const noexcept {
 
 std::size_t WheelRun::n_numbers(const dynamics::Model& model, const Ring& ring,
                                 const WheelModel& wheel) noexcept {
-  return RingWheel::n_numbers(ring, wheel) + (model.rim ? WheelRim::n_numbers : 0);
+  return RingWheel::n_numbers(ring, wheel) + works_of(wheel) +
+         (model.rim ? WheelRim::n_numbers : 0);
 }
 
 bool WheelRun::is_saved(const dynamics::Model& model, const Ring& ring, const WheelModel& wheel,
@@ -235,13 +267,22 @@ dynamics::SavedState WheelRun::save() const {
     const std::vector<double> rim = rim_->save();
     saved.ring.insert(saved.ring.end(), rim.begin(), rim.end());
   }
+  if (is_viscous())
+    for (const CompensatedSum& sum : {internal_work_, viscous_loss_})
+      saved.ring.insert(saved.ring.end(), {sum.sum(), sum.correction()});
   saved.ledger = ledger_.save();
   return saved;
 }
 
 void WheelRun::restore(const dynamics::SavedState& saved) {
   n_ = saved.step;
-  const std::span<const double> numbers = saved.ring;
+  std::span<const double> numbers = saved.ring;
+  if (is_viscous()) {
+    const auto works = numbers.last(n_works_);
+    internal_work_ = {works[0], works[1]};
+    viscous_loss_ = {works[2], works[3]};
+    numbers = numbers.first(numbers.size() - n_works_);
+  }
   const std::size_t of_rim = rim_ ? WheelRim::n_numbers : 0;
   wheel_.restore(numbers.first(numbers.size() - of_rim));
   if (rim_) rim_->restore(n_, numbers.last(of_rim));

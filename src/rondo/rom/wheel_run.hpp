@@ -31,10 +31,15 @@ struct KnownSpins {
   double most = 0.0;    ///< where no spin up to it is critical
   bool change = false;  ///< false: the spin is always `least`, or its opposite
 };
+/// What a viscous material adds to the model of a wheel.
+struct WheelViscosity {
+  std::vector<fem::ViscousBranch> branches{};  ///< the same ones in all of the body; none: elastic
+  double stiffness_damping = 0.0;              ///< β beside them [s]
+};
 /// @param whole of a ring of one sector (whole_mesh.hpp); of others null
 [[nodiscard]] WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonics,
-                                          const KnownSpins& spins,
-                                          const WholeMesh* whole = nullptr);
+                                          const KnownSpins& spins, const WholeMesh* whole = nullptr,
+                                          const WheelViscosity& viscosity = {});
 
 class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
  public:
@@ -65,6 +70,7 @@ class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
   [[nodiscard]] WheelMotion motion_of(long long step) const;
   void begin(const dynamics::State& at_start);
   void step(dynamics::StepReport& report);
+  [[nodiscard]] bool is_viscous() const noexcept { return n_works_ > 0; }
   [[nodiscard]] dynamics::StepEnergy energy_of(const WheelEnergy& wheel) const;
   void count(const WheelReport& wheel, double seconds);
   void report_contact(const WheelReport& wheel, dynamics::ContactReport& report) const;
@@ -77,9 +83,11 @@ class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
   WheelFigures& figures_;
   std::vector<int> candidate_;  ///< (n) place among the candidates; -1: none
   RingWheel wheel_;
+  const std::size_t n_works_;  ///< numbers of the sums of a viscous wheel
   std::optional<WheelRim> rim_;
   dynamics::Ledger ledger_;
-  long long n_ = 0;  ///< number of steps made
+  CompensatedSum internal_work_, viscous_loss_;  ///< of a viscous wheel, as in MaterialReport
+  long long n_ = 0;                              ///< number of steps made
   dynamics::FrameStep frame_;
   std::vector<dynamics::ActiveContact> active_;
 };

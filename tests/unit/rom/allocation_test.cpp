@@ -10,13 +10,14 @@
 
 namespace rondo::rom::rolling_wheel {
 
-class Steps : public testing::TestWithParam<std::tuple<bool, bool>> {};
+class Steps : public testing::TestWithParam<std::tuple<bool, bool, bool>> {};
 
 TEST_P(Steps, OfAWheelAllocateNothing) {
-  const auto [whole, changes] = GetParam();
+  const auto [whole, changes, viscous] = GetParam();
   const OneBlasThread one;
   const Disk d(4, 60, whole);
   Rolling run{.modes = 40};
+  if (viscous) run.branches = {{0.2, 1e-3}, {0.1, 1e-2}};
   if (changes) run.spins = dynamics::Table({{0.0, 25.0}, {1.0, 35.0}});
   Wheel w(d, run);
   int n = 0, contacts = 0;
@@ -34,10 +35,12 @@ TEST_P(Steps, OfAWheelAllocateNothing) {
   const Eigen::VectorXd something = Eigen::VectorXd::Constant(10, static_cast<double>(before));
   EXPECT_EQ(test::allocations() - counted, 1) << something[0];  // the counter counts
 }
-INSTANTIATE_TEST_SUITE_P(Wheels, Steps, testing::Combine(testing::Bool(), testing::Bool()),
+INSTANTIATE_TEST_SUITE_P(Wheels, Steps,
+                         testing::Combine(testing::Bool(), testing::Bool(), testing::Bool()),
                          [](const auto& info) {
                            return std::string(std::get<0>(info.param) ? "mesh" : "ring") +
-                                  (std::get<1>(info.param) ? "_changing_spin" : "_constant_spin");
+                                  (std::get<1>(info.param) ? "_changing_spin" : "_constant_spin") +
+                                  (std::get<2>(info.param) ? "_viscous" : "");
                          });
 
 }  // namespace rondo::rom::rolling_wheel

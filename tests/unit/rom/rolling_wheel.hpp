@@ -57,6 +57,12 @@ struct Rolling {
   bool damped = true;
   contact::GroundShape ground{};
   double start_x = 0.0;
+  std::vector<fem::ViscousBranch> branches{};
+  double stiffness_damping = 2e-5;  ///< of what is damped
+
+  [[nodiscard]] WheelSettings settings(double dt) const {
+    return {dt, damped ? 200.0 : 0.0, damped ? stiffness_damping : 0.0, friction, theta, slip};
+  }
 };
 
 struct Outcome {
@@ -65,6 +71,8 @@ struct Outcome {
   double energy = 0.0;                       ///< largest [J/m]
   double residual = 0.0;                     ///< of the law
   WheelEnergy sums{};
+  double least_viscous = 0.0;  ///< loss of the branches in a step [J/m]
+  double unsplit = 0.0;        ///< most by which work of the inner forces is not stored or lost
   std::vector<Vec2> forces;
 };
 
@@ -72,8 +80,8 @@ inline double total(const WheelEnergy& e) {
   return e.kinetic + e.elastic + e.residual;
 }
 inline double change(const WheelEnergy& e) {
-  return e.frame - e.by_mass - e.by_stiffness - e.by_residual - e.friction - e.arrival - e.rim +
-         e.scheme;
+  return e.frame - e.by_mass - e.by_stiffness - e.by_residual - e.viscous - e.friction - e.arrival -
+         e.rim + e.scheme;
 }
 
 /// The motion of a run: lowered from 0.31 m in 0.02 s.
@@ -123,11 +131,25 @@ inline WheelModel model_of(const Disk& d, const Ring& ring, const Rolling& run) 
     const double most = std::pow(run.spins->largest(), 2);
     model.squares = {0.067 * most, 0.5 * most, 0.933 * most};
   }
+  model.radius = 0.3;
+  if (!run.branches.empty()) {
+    model.branches = run.branches;
+    model.creep = creep_terms(run.branches, run.settings(1.0).stiffness_damping);
+    for (const double square : model.squares) {
+      CreepResidual both;
+      if (d.is_whole())
+        both.at_once = both.later = whole_residual(ring, d.whole(), model.harmonics, square);
+      else
+        both = creep_residual(ring, model.harmonics, square, model.creep);
+      model.residuals.push_back(both.at_once);
+      model.later.push_back(both.later);
+    }
+    return model;
+  }
   for (const double square : model.squares)
     model.residuals.push_back(d.is_whole()
                                   ? whole_residual(ring, d.whole(), model.harmonics, square)
                                   : ring_residual(ring, model.harmonics, square, run.form));
-  model.radius = 0.3;
   return model;
 }
 
@@ -147,9 +169,7 @@ struct Wheel {
         dt(2.0 * pi / static_cast<double>(d.built.mesh.boundary.size()) /
            std::abs(run.spin == 0.0 ? 100.0 / 3.0 : run.spin) / run.passes),
         model(model_of(d, ring, run)),
-        wheel(ring, model, ground,
-              {dt, run.damped ? 200.0 : 0.0, run.damped ? 2e-5 : 0.0, run.friction, run.theta,
-               run.slip}),
+        wheel(ring, model, ground, run.settings(dt)),
         motion(run, dt) {
     wheel.start(motion.start());
   }
@@ -160,7 +180,7 @@ inline Outcome outcome(const Rolling& run, const Disk& d = disk()) {
   Wheel w(d, run);
   Outcome o;
   const auto n = static_cast<int>(std::lround(run.end / w.dt));
-  double energy = 0.0, squares = 0.0;
+  double energy = 0.0, squares = 0.0, stored = w.wheel.energy_at_start(true).stored;
   int counted = 0;
   for (int i = 0; i < n; ++i) {
     const WheelReport r = w.wheel.step(w.motion.at(i));
@@ -168,6 +188,11 @@ inline Outcome outcome(const Rolling& run, const Disk& d = disk()) {
     if (i > 0) o.unbalanced = std::max(o.unbalanced, std::abs(now - energy - change(r.energy)));
     o.energy = std::max(o.energy, std::abs(now));
     o.residual = std::max(o.residual, r.law_residual);
+    o.unsplit = std::max(
+        o.unsplit, std::abs(r.energy.internal - (r.energy.stored - stored) - r.energy.viscous));
+    stored = r.energy.stored;
+    o.sums.viscous += r.energy.viscous;
+    o.least_viscous = std::min(o.least_viscous, r.energy.viscous);
     o.sums.by_mass += r.energy.by_mass;
     o.sums.by_stiffness += r.energy.by_stiffness;
     o.sums.by_residual += r.energy.by_residual;

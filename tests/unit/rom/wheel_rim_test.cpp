@@ -31,7 +31,8 @@ struct OnRim {
   std::optional<Ring> ring;
   WheelModel wheel;
 
-  OnRim(rondo::test::DiskCase c, const dynamics::RimBody& rim) {
+  OnRim(rondo::test::DiskCase c, const dynamics::RimBody& rim,
+        const std::vector<fem::ViscousBranch>& branches = {}) {
     built = rondo::test::build(c);
     rondo::test::set_rim(built, rim);
     rondo::test::add_ground(built, {}, {0.4, 0.0});
@@ -41,7 +42,8 @@ struct OnRim {
     built.model.mass = mass;
     built.model.dt = 2e-4;
     ring.emplace(make_ring(sector, mass, built.model.reference, built.mesh.boundary));
-    wheel = make_wheel_model(*ring, ring_modes(*ring, {.wanted = 20}), {33.0, 66.0, true});
+    wheel = make_wheel_model(*ring, ring_modes(*ring, {.wanted = 20}), {33.0, 66.0, true}, nullptr,
+                             {branches, built.model.stiffness_damping});
   }
   [[nodiscard]] WheelSettings settings() const {
     const dynamics::Model& m = built.model;
@@ -168,29 +170,36 @@ rondo::test::DiskCase pressed() {
 
 /// With all that a rim may have, and each component held in turn.
 TEST(WheelRim, EnergyIsWhatWorksMakeIt) {
-  for (int held = 0; held < 4; ++held) {
+  for (int way = 0; way < 8; ++way) {
+    const int held = way % 4;
+    const bool viscous = way >= 4;
     dynamics::RimBody rim = loaded();
     hold(held - 1, rim);
     rondo::test::DiskCase c = pressed();
     if (held == 1) c.motion.speed = Table({{0.0, 10.0}, {0.02, 11.0}});
     if (held == 2) c.motion.height = Table({{0.0, 0.3}, {0.01, 0.294}});
     if (held == 3) c.motion.angular_velocity = Table({{0.0, 33.0}, {0.02, 36.0}});
-    const OnRim on(c, rim);
+    std::vector<fem::ViscousBranch> branches;
+    if (viscous) branches = {{0.2, 1e-3}, {0.1, 1e-2}};
+    const OnRim on(c, rim, branches);
     Steps steps(on);
     steps.step();
-    double before = steps.energy(), pressing = 0.0;
+    double before = steps.energy(), pressing = 0.0, lost = 0.0;
     for (int k = 1; k < 150; ++k) {
       const WheelReport r = steps.step();
       const dynamics::Works& w = steps.works();
       const WheelEnergy& e = r.energy;
       const double made = w.gravity + w.rim_load + w.torque + w.held - w.dissipation_brake -
                           w.dissipation_support + w.scheme + e.scheme - e.by_mass - e.by_stiffness -
-                          e.by_residual - e.friction - e.arrival;
-      EXPECT_NEAR(steps.energy() - before, made, 1e-10 * steps.energy()) << held << " " << k;
+                          e.by_residual - e.viscous - e.friction - e.arrival;
+      EXPECT_NEAR(steps.energy() - before, made, 1e-10 * steps.energy()) << way << " " << k;
+      EXPECT_GE(e.viscous, 0.0);
+      lost += e.viscous;
       before = steps.energy();
       pressing = std::max(pressing, r.force.y);
     }
-    EXPECT_GT(pressing, 5e4) << held;
+    EXPECT_GT(pressing, 5e4) << way;
+    EXPECT_EQ(lost > 1.0, viscous) << lost;
   }
 }
 

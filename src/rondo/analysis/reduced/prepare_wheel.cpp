@@ -12,6 +12,7 @@
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/elements/combinations.hpp"
 #include "rondo/case/case_source.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/core/process_wide.hpp"
 #include "rondo/fem/contact_mass.hpp"
 
@@ -106,11 +107,31 @@ rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
           .fewest = fewest_modes};
 }
 
+/// The residual of a wheel creeps by one spectrum, which a body has whose branches are the same
+/// everywhere.
+void refuse_unlike_branches(const Case& c, const Setup& setup) {
+  if (setup.model.viscous.empty()) return;
+  const std::vector<fem::Material>& materials = setup.materials;
+  const std::vector<int>& regions = setup.mesh.region;
+  const std::size_t first = regions.empty() ? 0 : at(regions.front());
+  const auto differs = [&](int region) {
+    return fem::branches_of(materials[at(region)]) != fem::branches_of(materials[first]);
+  };
+  if (std::ranges::none_of(regions, differs)) return;
+  throw case_error(c, "material.region[0]",
+                   "regions differ in their viscous branches, and what no mode of a reduced wheel "
+                   "has creeps by one spectrum",
+                   "no loss_factor and no viscosity of a region, and one for all of the body in "
+                   "[material], such as the mean of the regions by the energy of their strains; or "
+                   "the full run, without --reduced");
+}
+
 void refuse(const Case& c, const Setup& setup) {
   refuse_combinations(c, setup.model, dynamics::has::reduced);
   if (!c.ground)
     throw case_error(c, "ground", "a reduced wheel is one of exact contact, and there is no ground",
                      "a [ground]; or the full run, without --reduced");
+  refuse_unlike_branches(c, setup);
 }
 
 /// The mass of contact nodes goes to their neighbours.
@@ -160,12 +181,24 @@ void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
         fmt::format("{:.2g} steps in the pass of a {}: forces of fewer than 1.5 swing; a "
                     "--reduced-step of at most {:.2g} s",
                     w.passes(dt), w.passing(), e.pass / 1.618));
+  if (!w.model.one_matrix.empty())
+    warn(
+        fmt::format("the material is so viscous at {:.4g} rad/s that in {} harmonics, from {} on, "
+                    "the loss of what no mode has is that without its inertia: more --modes carry "
+                    "more of it",
+                    e.spin, w.model.one_matrix.size(), w.model.one_matrix.front()));
   for (const rom::RingResidual& r : w.model.residuals)
     if (!r.made_static.empty())
       return warn(
           fmt::format("at {:.4g} rad/s the mesh is beyond the critical spin of harmonic {}: "
                       "the inertia of what no mode has is left out of {} harmonics",
                       e.spin, r.made_static.front(), r.made_static.size()));
+}
+
+rom::WheelViscosity viscosity_of(const Setup& setup) {
+  const dynamics::Model& model = setup.model;
+  if (model.viscous.empty()) return {};
+  return {model.viscous.front().branches, model.stiffness_damping};
 }
 
 rom::WholeMesh whole_of(const Setup& setup) {
@@ -242,12 +275,15 @@ void begin_wheel(const Case& c, const RunOptions& options, std::optional<double>
 void complete_wheel(const Case& c, std::optional<double> led,
                     std::vector<rom::RingHarmonic> harmonics, Setup& setup, PreparedWheel& wheel) {
   const rom::KnownSpins spins = spins_of(c, led, wheel.expected.spin, radius_of(setup));
+  const rom::WheelViscosity viscosity = viscosity_of(setup);
   if (wheel.whole) {
     const rom::WholeMesh whole = whole_of(setup);
-    wheel.model = rom::make_wheel_model(*wheel.ring, std::move(harmonics), spins, &whole);
+    wheel.model =
+        rom::make_wheel_model(*wheel.ring, std::move(harmonics), spins, &whole, viscosity);
     refuse_soft_mesh(c, wheel);
   } else {
-    wheel.model = rom::make_wheel_model(*wheel.ring, std::move(harmonics), spins);
+    wheel.model =
+        rom::make_wheel_model(*wheel.ring, std::move(harmonics), spins, nullptr, viscosity);
   }
   const std::string of_pod = wheel.basis == WheelBasis::pod
                                  ? fmt::format(" of a POD up to {:.17g} rad/s", wheel.highest())

@@ -100,6 +100,17 @@ constexpr JsonMember<WheelEstimate> wheel_estimate_member[] = {
      [](const WheelEstimate& e) { return e.none.empty() ? absent() : Json(e.none); }},
 };
 
+/// "at once 0.54, later 0.46 in 4 terms of 0.0002 to 0.06 s; a step is 1.9 of the shortest branch".
+std::string told_creep(const rom::WheelModel& wheel, double dt) {
+  const rom::CreepTerm &first = wheel.creep.front(), &second = wheel.creep[1];
+  const auto shortest = std::ranges::min(wheel.branches, {}, &fem::ViscousBranch::time);
+  const std::string when = first.time == 0.0 ? "at once" : fmt::format("in {:.3g} s", first.time);
+  return fmt::format(
+      "{:.3g} of the compliance {}, the others in {:.3g} to {:.3g} s; a step is {:.3g} of the "
+      "shortest branch",
+      first.share, when, second.time, wheel.creep.back().time, dt / shortest.time);
+}
+
 /// The loop, the files and the figures are those of motion in time; the steps are those of the
 /// reduced wheel.
 class WheelAnalysis final : public DynamicAnalysis {
@@ -120,6 +131,7 @@ class WheelAnalysis final : public DynamicAnalysis {
     if (wheel_.expected.pass > 0.0)
       r.lines.emplace_back("steps in a pass",
                            fmt::format("{:.4g}, of a {}", wheel_.passes(dt), wheel_.passing()));
+    if (!wheel_.model.creep.empty()) r.lines.emplace_back("creep", told_creep(wheel_.model, dt));
     return r;
   }
   [[nodiscard]] std::vector<std::string> warnings() const override {

@@ -126,22 +126,44 @@ void write_sector(File& file, const rom::Ring& ring) {
   file.write("/sector/contact", {contact.size()}, contact, {"1", "rows of the contact nodes"});
 }
 
+std::vector<double> blocks_of(std::span<const rom::RingResidual> residuals) {
+  std::vector<double> blocks;
+  for (const rom::RingResidual& r : residuals)
+    blocks.insert(blocks.end(), r.blocks.begin(), r.blocks.end());
+  return blocks;
+}
+
+/// What only a viscous wheel has.
+void write_creep(File& file, const io::h5::Shape& shape, const rom::WheelModel& model) {
+  std::vector<double> branches, creep;
+  for (const fem::ViscousBranch& b : model.branches)
+    branches.insert(branches.end(), {b.relative_modulus, b.time});
+  for (const rom::CreepTerm& term : model.creep) creep.insert(creep.end(), {term.share, term.time});
+  file.write("/material/branches", {model.branches.size(), 2}, branches,
+             {"1, s", "relative modulus and time of relaxation of each viscous branch"});
+  file.write("/residual/creep", {model.creep.size(), 2}, creep,
+             {"1, s",
+              "share and time of creep of each term: lagging forces of the first one go with "
+              "/residual/compliance, those of all others with /residual/compliance_later"});
+  file.write("/residual/compliance_later", shape, blocks_of(model.later),
+             {"m2/N", "as /residual/compliance, of the terms of the creep but the first"});
+}
+
 void write_residual(File& file, const rom::Ring& ring, const rom::WheelModel& model) {
   const std::size_t n = at(ring.n_sectors()), size = at(ring.n_contact()),
                     tables = model.residuals.size();
-  std::vector<double> blocks, centrifugal;
-  for (const rom::RingResidual& r : model.residuals) {
-    blocks.insert(blocks.end(), r.blocks.begin(), r.blocks.end());
+  std::vector<double> centrifugal;
+  for (const rom::RingResidual& r : model.residuals)
     centrifugal.insert(centrifugal.end(), r.centrifugal.begin(), r.centrifugal.end());
-  }
   file.write("/residual/spin_squared", {tables}, model.squares,
              {"1/s2", "square of the spin of each table; between three, a polynomial in it"});
-  file.write("/residual/compliance", {tables, n, size, size}, blocks,
+  file.write("/residual/compliance", {tables, n, size, size}, blocks_of(model.residuals),
              {"m2/N",
               "table, lag d, force component, displacement component: displacement of contact node "
               "i of sector j + d by a force on the contact nodes of sector j, beyond the modes"});
   file.write("/residual/centrifugal", {tables, ring.stiffness.n_local(), 2}, centrifugal,
              {"m", "displacement by the spin beyond the modes, rows of a sector"});
+  if (!model.creep.empty()) write_creep(file, {tables, n, size, size}, model);
 }
 
 MatrixXcd read_complex(const File& file, const char* name, std::size_t modes, Index rows) {

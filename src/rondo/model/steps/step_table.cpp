@@ -45,6 +45,7 @@ constexpr std::array names{
     FeatureName{has::hati | has::other_scheme, "scheme \"hati\""},
     FeatureName{has::reduced, "reduced wheel"},
     FeatureName{has::reduced | has::loaded_rim, "reduced wheel on a rim that forces move"},
+    FeatureName{has::reduced | has::viscosity, "reduced wheel of a viscous material"},
 };
 
 constexpr std::array steps{
@@ -178,7 +179,6 @@ constexpr std::array limits{
     Limit{has::viscosity, has::implicit, any, "implicit elements have no viscous branches"},
     Limit{has::viscosity, has::other_scheme, any,
           "viscous branches at small strain need the scheme \"symplectic\""},
-    Limit{has::viscosity, has::reduced, any, "a reduced wheel has no viscous branches"},
     Limit{has::implicit, has::own_material, any,
           "implicit elements need a body of linear elements only"},
     Limit{has::implicit, has::hati, any,
@@ -217,6 +217,9 @@ constexpr std::array limits{
           "ground.impact = \"energy-safe\" is a law of velocities, and that of a reduced wheel is "
           "one of gaps"},
     Limit{has::friction_law, has::reduced, any, "a reduced wheel has one coefficient of friction"},
+    Limit{has::stress_stiffening, has::reduced | has::viscosity, any,
+          "in a reduced wheel of a viscous material all of the stiffness creeps, and that of the "
+          "stress does not"},
 };
 
 bool has_ogden(const SweptPart& part) noexcept {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
@@ -106,8 +107,11 @@ Index n_negative(const MatrixXcd& z) {
 struct Dynamic {
   MatrixXcd ring, modes;
 
-  Dynamic(const Ring& of, const RingHarmonic* h, int k, double spin, double rate) {
-    const double straight = spin * spin + rate * rate, across = 2.0 * rate * spin;
+  /// @param inertia share of it that is counted
+  Dynamic(const Ring& of, const RingHarmonic* h, int k, double spin, double rate,
+          double inertia = 1.0) {
+    const double straight = inertia * (spin * spin + rate * rate),
+                 across = inertia * 2.0 * rate * spin;
     const VectorXd m = masses(of);
     ring = stiffness_of(of, k);
     for (Index a = 0; a < ring.rows(); ++a) ring(a, a) -= straight * m[a];
@@ -122,7 +126,113 @@ struct Dynamic {
   /// The convected form says what a pattern does that came from rest only if no mode that is left
   /// out has passed its critical spin.
   [[nodiscard]] bool has_meaning() const { return n_negative(ring) == n_negative(modes); }
+  /// (rows, 2C) What unit forces on the contact nodes do beyond the modes.
+  [[nodiscard]] MatrixXcd beyond(const RingHarmonic* h, const MatrixXcd& forces) const {
+    MatrixXcd g = ring.partialPivLu().solve(forces);
+    if (h) g -= h->shapes * modes.partialPivLu().solve(h->contact.adjoint());
+    return g;
+  }
 };
+
+/// What is summed up of a residual, harmonic by harmonic.
+class Lags {
+ public:
+  Lags(const Ring& ring, const Parts& parts, RingResidual& out) : parts_(parts), out_(out) {
+    out_.n_sectors = ring.n_sectors();
+    out_.size = ring.n_contact();
+    rows_ = ring.n_rows();
+    out_.fields.resize(at(out_.n_sectors) * at(out_.size * rows_));
+  }
+  /// @param g (rows, 2C)
+  void add(int k, MatrixXcd g) {
+    const MatrixXcd surface = g(parts_.contact, Eigen::all);
+    g(parts_.contact, Eigen::all) = 0.5 * (surface + surface.adjoint());
+    const int n = out_.n_sectors;
+    const double weight = (k == 0 || 2 * k == n ? 1.0 : 2.0) / n;
+    for (int d = 0; d < n; ++d) lag(d) += weight * (wave(n, k * d % n) * g).real();
+  }
+  /// After all harmonics: the rows of the contact nodes as a table of their own.
+  void finish() {
+    for (int d = 0; d < out_.n_sectors; ++d) {
+      const Eigen::MatrixXd block = lag(d)(parts_.contact, Eigen::all);
+      out_.blocks.insert(out_.blocks.end(), block.data(), block.data() + block.size());
+    }
+  }
+
+ private:
+  Eigen::Map<Eigen::MatrixXd> lag(int d) {
+    return {out_.fields.data() + d * out_.size * rows_, rows_, out_.size};
+  }
+
+  const Parts& parts_;
+  RingResidual& out_;
+  Index rows_ = 0;
+};
+
+/// (rows, 2C) Unit forces on the contact nodes.
+MatrixXcd unit_forces(const Ring& ring, const Parts& parts) {
+  MatrixXcd forces = MatrixXcd::Zero(ring.n_rows(), ring.n_contact());
+  for (Index c = 0; c < forces.cols(); ++c) forces(parts.contact[at(c)], c) = 1.0;
+  return forces;
+}
+
+const RingHarmonic* find_harmonic(std::span<const RingHarmonic> harmonics, int k) {
+  const auto found = std::ranges::find(harmonics, k, &RingHarmonic::k);
+  return found == harmonics.end() ? nullptr : &*found;
+}
+
+/// (rows) What the spin does beyond the modes. @param still of harmonic 0
+VectorXd by_spin(const Ring& ring, const RingHarmonic* h, const Dynamic& still, double square) {
+  const VectorXcd pull = square * (masses(ring).asDiagonal() * reference(ring));
+  VectorXcd u = still.ring.partialPivLu().solve(pull);
+  if (h) u -= h->shapes * still.modes.partialPivLu().solve(square * h->reference);
+  return u.real();
+}
+
+/// Both matrices of a harmonic of a viscous ring, (rows, 2C).
+struct CreepPair {
+  MatrixXcd at_once, later;
+};
+
+/// Whether a Hermitian matrix has no eigenvalue below 0 but for round-off.
+bool is_semidefinite(const MatrixXcd& a) {
+  const VectorXd values =
+      Eigen::SelfAdjointEigenSolver<MatrixXcd>(0.5 * (a + a.adjoint()), Eigen::EigenvaluesOnly)
+          .eigenvalues();
+  return values.minCoeff() >= -1e-9 * values.maxCoeff();
+}
+
+/// Whether the first term of the creep and the others lag differently at a rate: where they do not,
+/// one matrix says all.
+bool both_creep(std::span<const CreepTerm> creep, double rate) {
+  const Complexes first = creep.front().at(rate), others = creep_at(creep.subspan(1), rate);
+  return std::abs((first * std::conj(others)).imag()) > 1e-6 * std::abs(first) * std::abs(others);
+}
+
+/// The Hermitian matrices A and B with A j_0 h_0 + B Σ j_b h_b = the answer of Z_k with K g: for
+/// the rate and its opposite these are two equations, because the answer to the opposite rate is
+/// the adjoint one. None: one of them would not be positive. @pre both_creep()
+std::optional<CreepPair> exact_creep(const Ring& ring, const RingHarmonic* h, int k, double spin,
+                                     std::span<const CreepTerm> creep, const MatrixXcd& forces,
+                                     const Parts& parts) {
+  const double rate = k * spin;
+  const Complexes first = creep.front().at(rate), others = creep_at(creep.subspan(1), rate);
+  const Complexes determinant = first * std::conj(others) - std::conj(first) * others;
+  const auto answer = [&](const Complexes& modulus) {
+    Dynamic z(ring, h, k, spin, rate);
+    z.ring += (modulus - 1.0) * stiffness_of(ring, k);
+    if (h) z.modes.diagonal() += (modulus - 1.0) * h->squares;
+    return z.beyond(h, forces);
+  };
+  const Complexes modulus = 1.0 / (first + others);
+  const MatrixXcd ahead = answer(modulus), back = answer(std::conj(modulus));
+  CreepPair pair{(std::conj(others) * ahead - others * back) / determinant,
+                 (first * back - std::conj(first) * ahead) / determinant};
+  if (!is_semidefinite(pair.at_once(parts.contact, Eigen::all)) ||
+      !is_semidefinite(pair.later(parts.contact, Eigen::all)))
+    return {};
+  return pair;
+}
 
 }  // namespace
 
@@ -228,43 +338,59 @@ int count_modes(std::span<const RingHarmonic> harmonics) noexcept {
 
 RingResidual ring_residual(const Ring& ring, std::span<const RingHarmonic> harmonics,
                            double spin_squared, ResidualForm form) {
-  const int n = ring.n_sectors();
-  const Index size = ring.n_contact();
   const double spin = std::sqrt(spin_squared);
   const Parts parts(ring);
-  const Index rows = ring.n_rows();
-  RingResidual out{n, size, {}, std::vector<double>(at(n) * at(size * rows)), {}, {}, {}};
-  MatrixXcd forces = MatrixXcd::Zero(rows, size);
-  for (Index c = 0; c < size; ++c) forces(parts.contact[at(c)], c) = 1.0;
-  for (int k = 0; 2 * k <= n; ++k) {
-    const auto found = std::ranges::find(harmonics, k, &RingHarmonic::k);
-    const RingHarmonic* h = found == harmonics.end() ? nullptr : &*found;
-    const bool rolls = form == ResidualForm::convected && k > 0 && 2 * k < n;
+  RingResidual out;
+  Lags lags(ring, parts, out);
+  const MatrixXcd forces = unit_forces(ring, parts);
+  for (int k = 0; 2 * k <= ring.n_sectors(); ++k) {
+    const RingHarmonic* h = find_harmonic(harmonics, k);
+    const bool rolls = form == ResidualForm::convected && k > 0 && 2 * k < ring.n_sectors();
     Dynamic z(ring, h, k, spin, rolls ? k * spin : 0.0);
     if (rolls && !z.has_meaning()) {
       out.made_static.push_back(k);
       z = Dynamic(ring, h, k, spin, 0.0);
     }
-    const Eigen::PartialPivLU<MatrixXcd> lu(z.ring);
-    MatrixXcd g = lu.solve(forces);
-    if (h) g -= h->shapes * z.modes.partialPivLu().solve(h->contact.adjoint());
-    const MatrixXcd surface = g(parts.contact, Eigen::all);
-    g(parts.contact, Eigen::all) = 0.5 * (surface + surface.adjoint());
-    const double weight = (k == 0 || 2 * k == n ? 1.0 : 2.0) / n;
-    for (int d = 0; d < n; ++d)
-      Eigen::Map<Eigen::MatrixXd>(out.fields.data() + d * size * rows, rows, size) +=
-          weight * (wave(n, k * d % n) * g).real();
-    if (k > 0) continue;
-    const VectorXcd pull = spin_squared * (masses(ring).asDiagonal() * reference(ring));
-    VectorXcd u = lu.solve(pull);
-    if (h) u -= h->shapes * z.modes.partialPivLu().solve(spin_squared * h->reference);
-    out.centrifugal = u.real();
+    lags.add(k, z.beyond(h, forces));
+    if (k == 0) out.centrifugal = by_spin(ring, h, z, spin_squared);
   }
-  for (int d = 0; d < n; ++d) {
-    const Eigen::Map<const Eigen::MatrixXd> all(out.fields.data() + d * size * rows, rows, size);
-    const Eigen::MatrixXd block = all(parts.contact, Eigen::all);
-    out.blocks.insert(out.blocks.end(), block.data(), block.data() + block.size());
+  lags.finish();
+  return out;
+}
+
+CreepResidual creep_residual(const Ring& ring, std::span<const RingHarmonic> harmonics,
+                             double spin_squared, std::span<const CreepTerm> creep) {
+  RONDO_DEMAND(creep.size() >= 2, creep.size());
+  const double spin = std::sqrt(spin_squared);
+  const Parts parts(ring);
+  CreepResidual out;
+  Lags at_once(ring, parts, out.at_once), later(ring, parts, out.later);
+  const MatrixXcd forces = unit_forces(ring, parts);
+  for (int k = 0; 2 * k <= ring.n_sectors(); ++k) {
+    const RingHarmonic* h = find_harmonic(harmonics, k);
+    const bool rolls = spin > 0.0 && k > 0 && 2 * k < ring.n_sectors();
+    const double rate = rolls ? spin * k : 0.0;
+    // Forces over g(iks) have the inertia over g too; of it this takes the part in phase.
+    Dynamic z(ring, h, k, spin, rate, rolls ? creep_at(creep, rate).real() : 1.0);
+    const bool is_static = rolls && !z.has_meaning();
+    if (is_static) {
+      out.at_once.made_static.push_back(k);
+      z = Dynamic(ring, h, k, spin, 0.0);
+    }
+    std::optional<CreepPair> pair;
+    const bool two = rolls && !is_static && both_creep(creep, rate);
+    if (two) pair = exact_creep(ring, h, k, spin, creep, forces, parts);
+    if (!pair) {
+      if (two) out.one_matrix.push_back(k);
+      const MatrixXcd g = z.beyond(h, forces);
+      pair = CreepPair{g, g};
+    }
+    at_once.add(k, std::move(pair->at_once));
+    later.add(k, std::move(pair->later));
+    if (k == 0) out.at_once.centrifugal = by_spin(ring, h, z, spin_squared);
   }
+  at_once.finish();
+  later.finish();
   return out;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "rondo/fem/sector_stiffness.hpp"
+#include "rondo/rom/wheel/creep.hpp"
 
 namespace rondo::rom {
 
@@ -107,5 +108,18 @@ struct RingResidual {
 /// @param spin_squared s² [1/s²]
 [[nodiscard]] RingResidual ring_residual(const Ring& ring, std::span<const RingHarmonic> harmonics,
                                          double spin_squared, ResidualForm form);
+
+/// The same of a viscous body, whose K is that of slow strains: `at_once` answers to the first term
+/// of the creep, `later` to all others, u = G_0 j_0 λ_0 + G_1 Σ j_b λ_b. A pattern of forces that
+/// stands still in space then has the answer of K g(iks), inertia included, exactly.
+struct CreepResidual {
+  RingResidual at_once, later;
+  std::vector<int> one_matrix;  ///< harmonics in which both are one matrix, and the answer is
+                                ///< exact but for what their inertia changes of the phase
+};
+/// @param creep of creep_terms(), at least two
+[[nodiscard]] CreepResidual creep_residual(const Ring& ring,
+                                           std::span<const RingHarmonic> harmonics,
+                                           double spin_squared, std::span<const CreepTerm> creep);
 
 }  // namespace rondo::rom

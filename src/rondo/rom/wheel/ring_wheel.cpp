@@ -16,7 +16,7 @@ using Eigen::Index;
 
 }  // namespace
 
-RingWheel::Modes::Modes(const RingHarmonic& of, bool whole) {
+RingWheel::Modes::Modes(const RingHarmonic& of, bool whole, std::size_t n_branches) {
   const Index r = of.squares.size(), c = of.contact.rows();
   for (Vector* v : {&state, &before, &work, &shift, &twist}) v->setZero(2 * r);
   for (Vector* v : {&force, &outside, &held, &left, &pushed}) v->setZero(r);
@@ -25,6 +25,7 @@ RingWheel::Modes::Modes(const RingHarmonic& of, bool whole) {
   stiff.setZero(r);
   for (Matrix* m : {&inverse, &step}) m->setZero(r, r);
   one.setIdentity(r, r);
+  for (Matrix* m : {&strain, &strain_mean}) m->setZero(r, static_cast<Index>(n_branches));
   if (whole) return;  // these are in Real
   reply.setZero(r, c);
   answer.setZero(c, c);
@@ -76,7 +77,12 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
   touch_.reserve(n);
   law_.reserve(n);
   contacts_.reserve(n);
-  for (const RingHarmonic& h : harmonics_) modes_.emplace_back(h, is_whole());
+  for (const RingHarmonic& h : harmonics_)
+    modes_.emplace_back(h, is_whole(), model.branches.size());
+  if (!model.creep.empty()) {
+    creep_.emplace(model.creep, residuals, model.later, n, settings.stiffness_damping, settings.dt);
+    forces_.reserve(n);
+  }
   if (!is_whole()) return;
   std::vector<Vec2> arms;
   for (int node = 0; node < n_contact_; ++node) arms.push_back(arm(node));
@@ -99,9 +105,34 @@ void RingWheel::set_residual(double spin) {
   ++version_;
 }
 
-/// G of a pair at the spin, made when it is asked for.
+/// The tables of a viscous wheel at the spin, by their shares.
+RingWheel::Block RingWheel::of_tables(int to, int from, double at_once, double later) const {
+  const Index size = ring_.n_contact();
+  const Index first = (lag(to, from) * size + Index{2} * local(from)) * size + Index{2} * local(to);
+  Block sum{};
+  for (std::size_t a = 0; a < model_.residuals.size(); ++a)
+    for (const auto& [g, share] :
+         {std::pair{model_.residuals[a].blocks.data() + first, shares_[a] * at_once},
+          std::pair{model_.later[a].blocks.data() + first, shares_[a] * later}})
+      sum = contact::sum(sum, {share * g[0], share * g[size], share * g[1], share * g[size + 1]});
+  return sum;
+}
+
+/// What a force that has always been there does.
+RingWheel::Block RingWheel::held(int to, int from) const {
+  return creep_ ? of_tables(to, from, creep_->held_at_once(), creep_->held_later())
+                : beyond(to, from);
+}
+
+/// G of a pair at the spin, made when it is asked for; of a viscous wheel what a new force does at
+/// the end of its step.
 void RingWheel::make_beyond(int to, int from) const {
   const std::size_t p = pair(to, from);
+  if (creep_) {
+    beyond_[p] = of_tables(to, from, creep_->new_at_once(), creep_->new_later());
+    beyond_made_[p] = version_;
+    return;
+  }
   const Index size = ring_.n_contact();
   const Index first = (lag(to, from) * size + Index{2} * local(from)) * size + Index{2} * local(to);
   Block& sum = beyond_[p];
@@ -112,6 +143,36 @@ void RingWheel::make_beyond(int to, int from) const {
     sum = contact::sum(sum, {share * g[0], share * g[size], share * g[1], share * g[size + 1]});
   }
   beyond_made_[p] = version_;
+}
+
+/// Share of the middle velocity and of its strain at the start in the mean strain of a branch:
+/// (h p_m + e)/(c + h/τ).
+RingWheel::Complexes RingWheel::branch_share(const Modes& s, std::size_t branch) const noexcept {
+  return 1.0 / (s.turn + 0.5 * settings_.dt / model_.branches[branch].time);
+}
+
+/// What the strains of the branches at the start of the step take from the modes, (r).
+void RingWheel::strain_modes(const RingHarmonic& of, const Modes& s, Vector& out) const {
+  for (std::size_t b = 0; b < model_.branches.size(); ++b)
+    out -= (0.5 * settings_.dt * model_.branches[b].relative_modulus * branch_share(s, b)) *
+           of.squares.cwiseProduct(s.strain.col(static_cast<Index>(b)));
+}
+
+/// The strains of the branches at the end of the step.
+void RingWheel::relax_modes() {
+  const double half = 0.5 * settings_.dt;
+  for (Modes& s : modes_) {
+    const Index r = s.stiff.size();
+    for (std::size_t b = 0; b < model_.branches.size(); ++b) {
+      const auto column = static_cast<Index>(b);
+      const Complexes share = branch_share(s, b);
+      for (Index j = 0; j < r; ++j) {
+        const Complexes middle = 0.5 * (s.before[r + j] + s.state[r + j]), e = s.strain(j, column);
+        s.strain_mean(j, column) = share * (half * middle + e);
+        s.strain(j, column) = 2.0 * s.strain_mean(j, column) - e;
+      }
+    }
+  }
 }
 
 /// Finds the matrices of a harmonic. With h = ½Δt the middle of the step solves
@@ -126,6 +187,10 @@ void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Mode
   if (is_whole()) {
     real_.step = (2.0 * half * spin + half * rate * half) * of.coriolis.real();
     real_.step.diagonal().array() += 1.0 + half * damping + half * half * s.stiff.array();
+    for (std::size_t b = 0; b < model_.branches.size(); ++b)
+      real_.step.diagonal() +=
+          (half * half * model_.branches[b].relative_modulus * branch_share(s, b).real()) *
+          of.squares;
     real_.factor.compute(real_.step);
     real_.inverse = real_.factor.solve(real_.one);
     s.inverse = real_.inverse.cast<Complexes>();
@@ -133,6 +198,9 @@ void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Mode
   }
   s.step = (2.0 * half * spin + half * rate * s.lever) * of.coriolis;
   s.step.diagonal().array() += s.turn + half * damping + half * s.lever * s.stiff.array();
+  for (std::size_t b = 0; b < model_.branches.size(); ++b)
+    s.step.diagonal() +=
+        (half * half * model_.branches[b].relative_modulus * branch_share(s, b)) * of.squares;
   s.factor.compute(s.step);
   s.inverse = s.factor.solve(s.one);
   const double share = settings_.theta * settings_.dt * of.weight() / ring_.n_sectors();
@@ -158,7 +226,7 @@ void RingWheel::use_spin(const WheelMotion& m) {
 }
 
 void RingWheel::take_spin(const WheelMotion& m, double rate, double end) {
-  residual_before_ = 0.5 * products().end;
+  residual_before_ = residual_stored();
   spin_ = end;
   spin_rate_ = rate;
   has_matrices_ = true;
@@ -187,7 +255,7 @@ void RingWheel::make_answer(int to, int from) {
     by_modes = contact::sum(by_modes, {real_product(turn, x[0]), real_product(turn, x[below]),
                                        real_product(turn, x[1]), real_product(turn, x[below + 1])});
   }
-  const double share = 1.0 / (1.0 + settings_.stiffness_damping / settings_.dt);
+  const double share = creep_ ? 1.0 : 1.0 / (1.0 + settings_.stiffness_damping / settings_.dt);
   const Block& g = beyond(to, from);
   const std::size_t p = pair(to, from);
   compliance_[p] = contact::complex_block(
@@ -213,9 +281,10 @@ RingWheel::Block RingWheel::whole_answer(int to, int from) {
 /// it a mean over the step that is not in its middle moves these forces on with the nodes.
 void RingWheel::leave_forces(const WheelMotion& m) {
   left_->clear();
-  for (const int node : active_)
+  for_remembered([&](int node) {
     if (const Vec2 force = memory_of(node).force; force != Vec2{})
       left_->add(node, force, m.angle_next - m.angle);
+  });
   if (modes_.empty()) return;
   modes_[0].left.setZero();
   for (const LeftBehind::Share& share : left_->shares())
@@ -262,6 +331,7 @@ void RingWheel::move_modes(const WheelMotion& m) {
     const auto y = s.before.head(r), p = s.before.tail(r);
     s.pushed *= 0.5 * settings_.dt;
     s.pushed += p - s.lever * s.stiff.cwiseProduct(y);
+    if (creep_) strain_modes(of, s, s.pushed);
     if (s.twisted != 0.0) s.pushed.noalias() -= s.lever * s.twisted * (of.coriolis * y);
     s.state.tail(r).noalias() = s.inverse * s.pushed;  // the middle
     s.state.head(r) = 2.0 * (y / s.turn + s.lever * s.state.tail(r)) - y;
@@ -271,11 +341,10 @@ void RingWheel::move_modes(const WheelMotion& m) {
 }
 
 WheelReport RingWheel::step(const WheelMotion& m) {
-  const double lag = settings_.stiffness_damping / settings_.dt;
   WheelReport report;
   use_spin(m);
   move_modes(m);
-  find_near(m, lag / (1.0 + lag));
+  find_near(m);
   solve(m, settings_.friction, report);
   take_forces(m, report);
   account(m, report);

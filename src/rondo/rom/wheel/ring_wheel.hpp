@@ -13,6 +13,7 @@
 #include "rondo/contact/coupled/block.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/core/vec2.hpp"
+#include "rondo/rom/wheel/creep_field.hpp"
 #include "rondo/rom/wheel/gap_law.hpp"
 #include "rondo/rom/wheel/left_behind.hpp"
 #include "rondo/rom/wheel/ring_harmonics.hpp"
@@ -43,6 +44,11 @@ struct WheelModel {
   std::vector<RingResidual> residuals;  ///< at these
   double largest_spin = 0.0;            ///< up to which these are good                    [rad/s]
   double radius = 0.0;                  ///< largest |X| [m]
+  // Of a body whose material has viscous branches, the same ones everywhere; others have none.
+  std::vector<fem::ViscousBranch> branches{};
+  std::vector<CreepTerm> creep{};     ///< of these and of the stiffness damping
+  std::vector<RingResidual> later{};  ///< at `squares`: CreepResidual::later
+  std::vector<int> one_matrix{};      ///< CreepResidual::one_matrix of the largest spin
 };
 
 /// Energies at the end of a step, and the works in it [J/m].
@@ -50,13 +56,16 @@ struct WheelEnergy {
   double kinetic = 0.0;   ///< of the modes, in the co-rotating frame
   double elastic = 0.0;   ///< of the modes; on tables less what the spin softens them by
   double residual = 0.0;  ///< of the compliance of the contact nodes
+  double stored = 0.0;    ///< elastic and residual, without the softening
   double frame = 0.0;     ///< work of the inertia of the frame and of gravity
   double by_mass = 0.0, by_stiffness = 0.0;  ///< taken by damping of the modes
   double by_residual = 0.0;                  ///< taken by damping of the residual
-  double friction = 0.0;                     ///< taken by friction
-  double arrival = 0.0;  ///< taken where nodes arrive, as distance from the ground
-  double rim = 0.0;      ///< work of the ground's forces on the rim
-  double scheme = 0.0;   ///< by which the distances of the law differ from the work of the forces
+  double viscous = 0.0;   ///< taken by the viscous branches of the material, >= 0
+  double internal = 0.0;  ///< work against all elastic and viscous forces, found from these forces
+  double friction = 0.0;  ///< taken by friction
+  double arrival = 0.0;   ///< taken where nodes arrive, as distance from the ground
+  double rim = 0.0;       ///< work of the ground's forces on the rim
+  double scheme = 0.0;    ///< by which the distances of the law differ from the work of the forces
 };
 
 /// A node that the ground presses.
@@ -133,7 +142,7 @@ class RingWheel {
 
   /// The modes of a harmonic; their coefficients y and velocities p are one after the other.
   struct Modes {
-    Modes(const RingHarmonic& of, bool whole);
+    Modes(const RingHarmonic& of, bool whole, std::size_t n_branches);
 
     Vector state, before;   ///< (2r) at the end of the last step, and of the one before
     Vector force, outside;  ///< (r) of the contact, φ_cᴴ λ; of the frame
@@ -142,6 +151,8 @@ class RingWheel {
     Vector ground;          ///< (2C) sum of e^{-ikψ} λ over the sectors, over their number
     Vector contact;         ///< (2C) φ_c y without new forces
     Vector pushed, work;    ///< (r), (2r)
+    Matrix strain;          ///< (r, branches) y less what the branch has followed of it
+    Matrix strain_mean;     ///< (r, branches) its mean over the last step
     // fill_step() sets these for a step.
     Complexes turn, lever;  ///< c = 1 + ½Δt iks; ½Δt/c                                         [s]
     double twisted = 0.0;   ///< ṡ                                                     [rad/s²]
@@ -207,12 +218,17 @@ class RingWheel {
     double end = 0.0, across = 0.0, start = 0.0;
   };
   using Block = contact::Block;
-  using Shares = std::array<double, 3>;  ///< of the model's residuals, at a spin
+  using Shares = TableShares;  ///< of the model's residuals, at a spin
+  /// Forces of which the residual makes a displacement: those now, or what a step leaves of them.
+  enum class Forces { now, left };
   static constexpr std::size_t numbers_of_node = 15;
   void use_spin(const WheelMotion& motion);
   void take_spin(const WheelMotion& motion, double rate, double end);
   void fill_step(const RingHarmonic& of, double spin, double rate, Modes& modes);
   void push_by(const Modes& modes, const Vector& force, Vector& out) const;
+  [[nodiscard]] Complexes branch_share(const Modes& s, std::size_t branch) const noexcept;
+  void strain_modes(const RingHarmonic& of, const Modes& s, Vector& out) const;
+  void relax_modes();
   void shift_modes();
   void twist_modes();
   [[nodiscard]] Eigen::Matrix3d momenta_by_rate(double spin) const;
@@ -234,13 +250,15 @@ class RingWheel {
   void project(double angle, std::span<const Vec2> field, bool velocity);
   void set_residual(double spin);
   void make_beyond(int to, int from) const;
+  [[nodiscard]] Block of_tables(int to, int from, double at_once, double later) const;
+  [[nodiscard]] Block held(int to, int from) const;
   void make_answer(int to, int from);
   [[nodiscard]] Block whole_answer(int to, int from);
   void leave_forces(const WheelMotion& motion);
   void move_modes(const WheelMotion& motion);
   [[nodiscard]] double waves_at(const WheelMotion& motion) const noexcept;
-  void find_near(const WheelMotion& motion, double filter);
-  [[nodiscard]] Vec2 displacement(int node, Complex turn, double filter) const;
+  void find_near(const WheelMotion& motion);
+  [[nodiscard]] Vec2 displacement(int node, Complex turn, Forces forces) const;
   [[nodiscard]] Vec2 distance(const Near& near, const WheelMotion& motion) const;
   void find_reply(Near& from);
   void add_candidates(const WheelMotion& motion);
@@ -252,9 +270,20 @@ class RingWheel {
   void take_forces(const WheelMotion& m, WheelReport& report);
   void account(const WheelMotion& motion, WheelReport& report);
   void account_modes(const WheelMotion& motion, WheelEnergy& energy) const;
+  void account_branches(WheelEnergy& energy) const;
+  [[nodiscard]] Products account_creep(WheelEnergy& energy) const;
   [[nodiscard]] double work_on_modes() const;
   [[nodiscard]] Products products() const;
   void remember(const WheelMotion& motion);
+  /// Calls work(node) for all contact nodes whose forces the residual remembers, ascending.
+  template <class Work>
+  void for_remembered(Work&& work) const {
+    if (!creep_) {
+      for (const int node : active_) work(node);
+      return;
+    }
+    for (int node = 0, n = static_cast<int>(memory_.size()); node < n; ++node) work(node);
+  }
   template <class Filtered>
   [[nodiscard]] Eigen::VectorXd by_contact(Filtered&& filtered) const;
   template <class Coefficients, class Filtered>
@@ -266,6 +295,9 @@ class RingWheel {
     return {x.re, x.im};
   }
   [[nodiscard]] bool is_whole() const noexcept { return ring_.n_sectors() == 1; }
+  [[nodiscard]] double residual_stored() const noexcept {
+    return creep_ ? creep_->stored(shares_) : 0.5 * products().end;
+  }
   /// None of a ring of one sector, whose modes are in real_.
   [[nodiscard]] std::span<const RingHarmonic> waves_of_sectors() const noexcept {
     return is_whole() ? std::span<const RingHarmonic>{} : harmonics_;
@@ -325,8 +357,10 @@ class RingWheel {
   Real real_;
   double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
   bool has_matrices_ = false, new_table_ = false, has_shift_ = false;
-  std::optional<LeftBehind> left_;  ///< of a ring of one sector
-  bool on_moving_rim_ = false;      ///< in the law
+  std::optional<LeftBehind> left_;   ///< of a ring of one sector
+  std::optional<CreepField> creep_;  ///< of viscous materials, in place of filtered forces
+  std::vector<NodeForce> forces_;    ///< on contact nodes at the end of a step, for it
+  bool on_moving_rim_ = false;       ///< in the law
   std::vector<Modes> modes_;
   std::vector<Memory> memory_;       ///< (N C)
   std::vector<int> sector_, local_;  ///< (N C) of each contact node, so that none is divided for

@@ -31,9 +31,9 @@ double landing(double g, double b, double a) noexcept {
 }  // namespace
 
 /// Displacement of a contact node, in the frame of its sector. @param turn of the modes
-/// @param filter share of the filtered
-/// forces that is left at the end of the step
-Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
+Vec2 RingWheel::displacement(int node, Complex turn, Forces forces) const {
+  const double lag = settings_.stiffness_damping / settings_.dt;
+  const double filter = forces == Forces::now ? 1.0 : lag / (1.0 + lag);
   const Index c = Index{2} * local(node);
   const Index row = Index{2} * ring_.contact[at(local(node))];
   // Not a Vec2: compilers keep that in memory in these loops, and wait for it.
@@ -48,6 +48,11 @@ Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
     x += weight * real_product(wave, amplitude[0]);
     y += weight * real_product(wave, amplitude[1]);
   });
+  if (creep_) {
+    const Vec2 u = forces == Forces::now ? creep_->now(node, shares_) : creep_->left(node, shares_);
+    x += u.x;
+    y += u.y;
+  }
   for (const int j : active_) {
     const Block& g = beyond(node, j);
     const Vec2 force = filter * memory_of(j).filtered;
@@ -58,7 +63,7 @@ Vec2 RingWheel::displacement(int node, Complex turn, double filter) const {
 }
 
 /// Nodes that are or may come near the ground, and their places without new forces.
-void RingWheel::find_near(const WheelMotion& m, double filter) {
+void RingWheel::find_near(const WheelMotion& m) {
   near_.clear();
   n_columns_ = 0;
   const double limit = ground_.top() + near_share * model_.radius - m.center_next.y;
@@ -72,7 +77,7 @@ void RingWheel::find_near(const WheelMotion& m, double filter) {
     near.turn = frame * turn;
     near.wave = waves * turn;
     near.own_before = memory_of(node).force;
-    near.free = near.place = near.turn * (arm(node) + displacement(node, near.wave, filter));
+    near.free = near.place = near.turn * (arm(node) + displacement(node, near.wave, Forces::left));
   }
 }
 
@@ -277,6 +282,7 @@ void RingWheel::take_forces(const WheelMotion& m, WheelReport& report) {
     memory.filtered = lag / (1.0 + lag) * memory.filtered;
   }
   contacts_.clear();
+  forces_.clear();
   for (Near& near : near_) near.own = {};
   for (std::size_t i = 0; i < solved_.size(); ++i) {
     const GapContact& c = law_[i];
@@ -288,17 +294,23 @@ void RingWheel::take_forces(const WheelMotion& m, WheelReport& report) {
     report.force += force;
     report.torque += cross(near.place, force);
     const Vec2 own = near.own = conj(near.turn) * force;
+    push_modes(near, own);
+    if (creep_) {
+      forces_.push_back({near.node, own});
+      continue;
+    }
     Memory& memory = memory_of(near.node);
     if (memory.filtered == Vec2{} && memory.filtered_before == Vec2{})
       active_.insert(std::ranges::lower_bound(active_, near.node), near.node);
     memory.filtered += 1.0 / (1.0 + lag) * own;
-    push_modes(near, own);
   }
   end_push();
+  if (creep_) creep_->step(forces_);
   for (Modes& s : modes_) {
     push_by(s, s.force, s.work);
     s.state += settings_.theta * s.work;
   }
+  if (creep_) relax_modes();
   report.mean_force = settings_.theta * report.force;
   report.mean_torque = settings_.theta * report.torque;
   const Complex frame = rotation(m.angle);

@@ -78,16 +78,57 @@ void RingWheel::account_modes(const WheelMotion& m, WheelEnergy& e) const {
   }
 }
 
+/// What viscous branches of the modes store and take, and the work against the forces of the modes.
+void RingWheel::account_branches(WheelEnergy& e) const {
+  const double dt = settings_.dt;
+  for (std::size_t h = 0; h < modes_.size(); ++h) {
+    const Modes& s = modes_[h];
+    const RingHarmonic& of = harmonics_[h];
+    const double n = of.weight() * ring_.n_sectors();
+    for (Index j = 0, r = of.squares.size(); j < r; ++j) {
+      const double square = n * of.squares[j];
+      Complexes strain = 0.5 * (s.before[j] + s.state[j]);
+      e.stored += 0.5 * square * std::norm(s.state[j]);
+      for (std::size_t b = 0; b < model_.branches.size(); ++b) {
+        const fem::ViscousBranch& branch = model_.branches[b];
+        const auto column = static_cast<Index>(b);
+        const double stiffness = branch.relative_modulus * square;
+        const double energy = 0.5 * stiffness * std::norm(s.strain(j, column));
+        e.elastic += energy;
+        e.stored += energy;
+        e.viscous += dt / branch.time * stiffness * std::norm(s.strain_mean(j, column));
+        strain += branch.relative_modulus * s.strain_mean(j, column);
+      }
+      e.internal +=
+          dt * square * (std::conj(0.5 * (s.before[r + j] + s.state[r + j])) * strain).real();
+    }
+  }
+}
+
+/// What the residual of a viscous wheel stores and takes.
+RingWheel::Products RingWheel::account_creep(WheelEnergy& e) const {
+  const CreepEnergy of = creep_->energy(shares_);
+  e.by_residual = of.by_stiffness;
+  e.viscous += of.lost - of.by_stiffness;
+  e.internal += of.work - of.by_stiffness;
+  return {2.0 * of.at_end, 0.0, 2.0 * of.at_start};
+}
+
 void RingWheel::account(const WheelMotion& m, WheelReport& report) {
   const double dt = settings_.dt;
   WheelEnergy& e = report.energy;
   account_modes(m, e);
-  const Products of = products();
+  if (creep_) account_branches(e);
+  const double viscous_modes = e.viscous;
+  const Products of = creep_ ? account_creep(e) : products();
   e.residual = 0.5 * of.end;
+  e.stored += e.residual;
   const double by_table =
       new_table_ && (m.kept_spin || m.spin_rate != 0.0) ? 0.5 * of.start - residual_before_ : 0.0;
   if (!m.kept_spin) e.frame += by_table;
-  e.by_residual = settings_.stiffness_damping / dt * (of.end - 2.0 * of.across + of.start);
+  if (!creep_)
+    e.by_residual = settings_.stiffness_damping / dt * (of.end - 2.0 * of.across + of.start);
+  e.internal += by_table;
   const double slides = settings_.slip == SlipRule::bdf2 ? 1.5 : 1.0;
   for (std::size_t i = 0; i < solved_.size(); ++i) {
     const Near& near = near_[solved_[i]];
@@ -100,19 +141,21 @@ void RingWheel::account(const WheelMotion& m, WheelReport& report) {
   e.rim = dot(report.force, m.center_next - m.center) + (m.angle_next - m.angle) * report.torque;
   e.scheme =
       work_on_modes() + 0.5 * (of.end - of.start) + e.by_residual + e.friction + e.arrival + e.rim;
+  e.scheme += e.viscous - viscous_modes;
   if (m.kept_spin) e.scheme += by_table;
 }
 
 WheelEnergy RingWheel::energy_at_start(bool softened) const {
   WheelEnergy e;
   const double by_spin = softened ? spin_ * spin_ : 0.0;
-  e.residual = 0.5 * products().end;
+  e.residual = e.stored = residual_stored();
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     const Eigen::VectorXd& squares = harmonics_[h].squares;
     const double n = 0.5 * harmonics_[h].weight() * ring_.n_sectors();
     for (Index j = 0, r = squares.size(); j < r; ++j) {
       e.kinetic += n * std::norm(modes_[h].state[r + j]);
       e.elastic += n * (squares[j] - by_spin) * std::norm(modes_[h].state[j]);
+      e.stored += n * squares[j] * std::norm(modes_[h].state[j]);
     }
   }
   return e;

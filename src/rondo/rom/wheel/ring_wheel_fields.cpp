@@ -27,7 +27,9 @@ void RingWheel::begin(const WheelMotion& m) {
   for (Memory& memory : memory_) memory = {};
   active_.clear();
   seen_.clear();
+  if (creep_) creep_->clear();
   for (Modes& s : modes_) {
+    s.strain.setZero();
     s.state.setZero();
     s.force.setZero();
   }
@@ -46,7 +48,7 @@ void RingWheel::move_contact() {
 /// Places of the nodes near the ground at the start.
 void RingWheel::look_at_start(const WheelMotion& m, std::span<const Vec2> u) {
   move_contact();
-  find_near(m, 0.0);
+  find_near(m);
   solved_.clear();
   contacts_.clear();
   law_.clear();
@@ -82,7 +84,7 @@ Eigen::VectorXd RingWheel::forces_that_hold(std::span<const std::size_t> nodes) 
     const auto row = static_cast<Index>(2 * i);
     moved.segment<2>(row) << by.x, by.y;
     for (std::size_t j = 0; j < nodes.size(); ++j) {
-      const Block& b = beyond(near.node, near_[nodes[j]].node);
+      const Block b = held(near.node, near_[nodes[j]].node);
       g.block<2, 2>(row, static_cast<Index>(2 * j)) << b[0], b[1], b[2], b[3];
     }
   }
@@ -93,6 +95,7 @@ Eigen::VectorXd RingWheel::forces_that_hold(std::span<const std::size_t> nodes) 
 void RingWheel::press_at_start(const WheelMotion& m, std::span<const Vec2> u) {
   std::vector<std::size_t> nodes = touching(m, u);
   Eigen::VectorXd forces;
+  forces_.clear();
   const auto own = [&](std::size_t i) {
     const auto row = static_cast<Index>(2 * i);
     return Vec2{forces[row], forces[row + 1]};
@@ -111,9 +114,13 @@ void RingWheel::press_at_start(const WheelMotion& m, std::span<const Vec2> u) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Near& near = near_[nodes[i]];
     near.own = own(i);
-    memory_of(near.node).filtered = memory_of(near.node).filtered_before = near.own;
-    active_.push_back(near.node);
     push_modes(near, near.own);
+    if (creep_) {
+      forces_.push_back({near.node, near.own});
+    } else {
+      memory_of(near.node).filtered = memory_of(near.node).filtered_before = near.own;
+      active_.push_back(near.node);
+    }
     const Vec2 normal = ground_.facet_near(m.center_next + near.place).normal,
                force = near.turn * near.own;
     const double most = settings_.friction * dot(normal, force),
@@ -126,6 +133,7 @@ void RingWheel::press_at_start(const WheelMotion& m, std::span<const Vec2> u) {
       law_.back().side = -std::copysign(1.0, shear);
   }
   end_push();
+  if (creep_) creep_->start(forces_);
 }
 
 RimVector RingWheel::force_at_start() const {
@@ -174,14 +182,16 @@ void RingWheel::project(double angle, std::span<const Vec2> field, bool velocity
   }
 }
 
-/// (rows) What the filtered forces do beyond the modes, of a ring of one sector.
+/// (rows) What the filtered forces do beyond the modes, of a ring of one sector, where the tables
+/// of all terms of the creep are one.
 template <class Filtered>
 Eigen::VectorXd RingWheel::by_contact(Filtered&& filtered) const {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(ring_.n_contact());
-  for (const int node : active_) {
-    const Vec2 le = filtered(memory_of(node));
+  for_remembered([&](int node) {
+    const CreepField::Lagging of = filtered(node);
+    const Vec2 le = of.at_once + of.later;
     force.segment<2>(Index{2} * node) << le.x, le.y;
-  }
+  });
   Eigen::VectorXd u = Eigen::VectorXd::Zero(ring_.n_rows());
   for (std::size_t a = 0; a < model_.residuals.size(); ++a)
     u += shares_[a] * model_.residuals[a].by_contact(force);
@@ -210,15 +220,19 @@ void RingWheel::write_field(double angle, const Eigen::VectorXd& constant,
     if (model_.residuals.front().by_contact)
       u += by_contact(filtered);
     else
-      for (const int node : active_) {
-        const Vec2 le = filtered(memory_of(node));
+      for_remembered([&](int node) {
+        const CreepField::Lagging of = filtered(node);
         const int d = (j - sector(node) + n) % n, c = 2 * local(node);
+        const auto add = [&](const RingResidual& table, double share, Vec2 le) {
+          const Eigen::Map<const Eigen::MatrixXd> all(table.fields.data() + d * size * n_rows,
+                                                      n_rows, size);
+          u += share * (le.x * all.col(c) + le.y * all.col(c + 1));
+        };
         for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
-          const Eigen::Map<const Eigen::MatrixXd> all(
-              model_.residuals[a].fields.data() + d * size * n_rows, n_rows, size);
-          u += shares_[a] * (le.x * all.col(c) + le.y * all.col(c + 1));
+          add(model_.residuals[a], shares_[a], of.at_once);
+          if (creep_) add(model_.later[a], shares_[a], of.later);
         }
-      }
+      });
     for (Index a = 0; a < n_rows; a += 2)
       field[ring_.stiffness.node(at(a / 2), at(j))] = turn * Vec2{u[a], u[a + 1]};
   }
@@ -229,7 +243,7 @@ void RingWheel::contact_displacement(double angle, std::span<Vec2> u) const {
   for (int node = 0, n = static_cast<int>(memory_.size()); node < n; ++node) {
     const auto row = at(ring_.contact[at(local(node))]), j = at(sector(node));
     const Complex turn = ring_.stiffness.turn[j];
-    u[ring_.stiffness.node(row, j)] = turn * displacement(node, frame * turn, 1.0);
+    u[ring_.stiffness.node(row, j)] = turn * displacement(node, frame * turn, Forces::now);
   }
 }
 
@@ -237,7 +251,11 @@ void RingWheel::displacement(double angle, std::span<Vec2> u) const {
   write_field(
       angle, centrifugal_,
       [&](std::size_t h) { return modes_[h].state.head(harmonics_[h].squares.size()); },
-      [](const Memory& memory) { return memory.filtered; }, u);
+      [&](int node) {
+        return creep_ ? creep_->lagging(node)
+                      : CreepField::Lagging{memory_of(node).filtered, Vec2{}};
+      },
+      u);
 }
 
 void RingWheel::velocity(double angle, std::span<Vec2> v) const {
@@ -247,8 +265,16 @@ void RingWheel::velocity(double angle, std::span<Vec2> v) const {
         const Index r = harmonics_[h].squares.size();
         return Vector(0.5 * (modes_[h].before.tail(r) + modes_[h].state.tail(r)));
       },
-      [&](const Memory& memory) {
-        return (memory.filtered - memory.filtered_before) / settings_.dt;
+      [&](int node) {
+        const double dt = settings_.dt;
+        if (!creep_) {
+          const Memory& memory = memory_of(node);
+          return CreepField::Lagging{(memory.filtered - memory.filtered_before) / dt, Vec2{}};
+        }
+        const CreepField::Lagging now = creep_->lagging(node),
+                                  before = creep_->lagging_before(node);
+        return CreepField::Lagging{(now.at_once - before.at_once) / dt,
+                                   (now.later - before.later) / dt};
       },
       v);
 }

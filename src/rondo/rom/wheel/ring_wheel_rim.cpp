@@ -208,15 +208,15 @@ void RingWheel::turn_modes(double angle) {
     const Complex back = rotation(-harmonics_[h].k * angle);
     modes_[h].state *= Complexes(back.re, back.im);
     modes_[h].force *= Complexes(back.re, back.im);
+    modes_[h].strain *= Complexes(back.re, back.im);
   }
 }
 
 WheelReport RingWheel::step(long long n, WheelRim& rim, dynamics::Works& works) {
-  const double lag = settings_.stiffness_damping / settings_.dt;
   WheelMotion m = rim.begin(n);
   use_spin(m);
   move_modes(m);
-  find_near(m, lag / (1.0 + lag));
+  find_near(m);
   twist_modes();
   WheelAnswer answer{sums(), momenta_by_rate(m.spin_next)};
   const Complex ahead = rotation(m.angle_next - waves_at(m));

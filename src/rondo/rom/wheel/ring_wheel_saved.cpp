@@ -14,7 +14,8 @@ namespace {
 using contact::Status;
 using Eigen::Index;
 
-void put(const Eigen::VectorXcd& from, std::vector<double>& to) {
+template <class Complexes>
+void put(const Complexes& from, std::vector<double>& to) {
   for (const std::complex<double>& x : from) to.insert(to.end(), {x.real(), x.imag()});
 }
 
@@ -32,11 +33,18 @@ class Reader {
     const double x = next();
     return {x, next()};
   }
-  void fill(Eigen::VectorXcd& to) {
+  template <class Complexes>
+  void fill(Complexes&& to) {
     for (std::complex<double>& x : to) {
       const Vec2 parts = vec();
       x = {parts.x, parts.y};
     }
+  }
+  std::span<const double> take(std::size_t count) {
+    RONDO_DEMAND(count <= left_.size(), count, left_.size());
+    const std::span<const double> taken = left_.first(count);
+    left_ = left_.subspan(count);
+    return taken;
   }
 
  private:
@@ -47,8 +55,14 @@ class Reader {
 
 std::size_t RingWheel::n_numbers(const Ring& ring, const WheelModel& model) noexcept {
   Index n = 1;
-  for (const RingHarmonic& h : model.harmonics) n += 6 * h.squares.size();
-  return at(n) + numbers_of_node * ring.contact.size() * at(ring.n_sectors());
+  const auto per_mode = static_cast<Index>(6 + 2 * model.branches.size());
+  for (const RingHarmonic& h : model.harmonics) n += per_mode * h.squares.size();
+  const std::size_t nodes = ring.contact.size() * at(ring.n_sectors());
+  const std::size_t creep =
+      model.creep.empty()
+          ? 0
+          : CreepField::n_numbers(model.creep.size(), model.residuals.size(), nodes);
+  return at(n) + creep + numbers_of_node * nodes;
 }
 
 /// Modes take any finite numbers; nodes have counts and statuses among theirs, which are checked.
@@ -73,7 +87,9 @@ std::vector<double> RingWheel::save() const {
   for (const Modes& s : modes_) {
     put(s.state, out);
     put(s.force, out);
+    for (Index b = 0; b < s.strain.cols(); ++b) put(s.strain.col(b), out);
   }
+  if (creep_) creep_->save(out);
   for (const Memory& m : memory_) {
     for (const Vec2 x : {m.force, m.filtered, m.place[0], m.place[1], m.place[2]})
       out.insert(out.end(), {x.x, x.y});
@@ -95,7 +111,11 @@ void RingWheel::restore(std::span<const double> numbers) {
   for (Modes& s : modes_) {
     from.fill(s.state);
     from.fill(s.force);
+    for (Index b = 0; b < s.strain.cols(); ++b) from.fill(s.strain.col(b));
   }
+  if (creep_)
+    creep_->restore(from.take(
+        CreepField::n_numbers(model_.creep.size(), model_.residuals.size(), memory_.size())));
   move_contact();
   active_.clear();
   seen_.clear();
