@@ -100,4 +100,21 @@ TEST(TransientRolling, RollsFromOneSteadyStateToTheNext) {
   EXPECT_NEAR(s.speed, corners.speed, 1e-6 * s.speed);
 }
 
+/// So that the steps of wheels that differ by a part of a sector do not feel each other.
+TEST(TransientRolling, SlowRollingCouplesNothingButNodesOfOneWheel) {
+  const test::SteadyWheel w(small_case(3));
+  RollingBody<3> body = w.harmonics.body();
+  body.inertia = RollingInertia::none;
+  body.mass_damping = body.stiffness_damping = 0.0;
+  const RollingHarmonics<3> slow(body);
+  const double own = slow.compliance(0, 0, 0).norm();
+  for (int ahead = 1; ahead < slow.turn(); ++ahead) {
+    const double moved = slow.compliance(1, 0, ahead).norm();
+    if (ahead % 3 == 0)
+      EXPECT_GT(moved, 1e-5 * own) << ahead;
+    else
+      EXPECT_LT(moved, 1e-12 * own) << ahead;
+  }
+}
+
 }  // namespace transient_rolling_test
