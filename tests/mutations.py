@@ -28,7 +28,7 @@ PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "road", "mesh", "fem", "conta
                                            "statics", "modal", "pod", "rom", "case", "io",
                                            "output", "analysis", "study")}
 
-SCRIPTS = {"cli": "test_run.py", "lengths": "test_contact_lengths.py", "disk": "test_full_disk.py", "crush": "test_crush.py",
+SCRIPTS = {"cli": "test_run.py", "lengths": "test_contact_lengths.py", "disk": "test_full_disk.py", "crush": "test_crush.py", "slipstep": "test_slip_step.py",
            "histories": "test_crush_histories.py",
            "pod": "test_pod.py", "ring": "test_ring.py", "modes": "test_modes.py", "limits": "test_limits.py",
            "numerical": "test_numerical.py", "resume": "test_resume.py",

@@ -11,6 +11,7 @@ STILL = SMALL[:SMALL.index("[motion]")] + SMALL[SMALL.index("[ground]"):]
 CRUSH = ["analysis.kind=crush", "analysis.depth=0.002", "analysis.increments=2"]
 STEADY = ["analysis.kind=steady-rolling", "motion.height=0.296"]
 WIDE = ["disk.width=0.05", "disk.mesh.axial=2"]
+STEPPED = [*STEADY, *WIDE, "analysis.slip=upwind", "analysis.step_distance=0.1", "analysis.accept_scheme_power=true"]
 RUBBER = SMALL.replace("youngs_modulus = 2.0e7\npoissons_ratio = 0.3",
                        'model = "neo-hooke"\nshear_modulus = 7e6\npoissons_ratio = 0.45')
 RIM = "[rim]\nmass = 20.0\ninertia = 1.0\nfree = []\n"
@@ -31,6 +32,8 @@ RUNS = {  # name: case, settings
     "steady-torque": (SMALL, [*STEADY, "analysis.torque=0"]),
     "steady-lossy": (SMALL, [*STEADY, "material.loss_factor=0.1", "material.loss_band=[1.0, 100.0]"]),
     "steady-wheel": (SMALL, [*STEADY, *WIDE, "analysis.estimate_slip_error=true"]),
+    "steady-turned": (SMALL, [*STEPPED, "analysis.slip_angle_step=0.01"]),
+    "steady-slipped": (SMALL, [*STEPPED, "analysis.slip_ratio_step=0.01"]),
 }
 
 

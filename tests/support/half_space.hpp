@@ -7,6 +7,7 @@
 #pragma once
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "rondo/statics/steady/rolling_problem.hpp"
@@ -86,6 +87,19 @@ inline statics::RollingProblem<3> half_spaces(const HalfSpaces& of) {
       p.matrix.block<3, 3>(3 * j, 3 * q) = block / (dx * dy);
     }
   }
+  return p;
+}
+
+/// The same half-spaces while they begin to roll: a point's earlier place is one by the forces of
+/// the step before (rolling_transient.hpp).
+inline statics::RollingProblem<3> rolling_half_spaces(HalfSpaces of) {
+  of.slip = {0.0, 1.0};
+  Eigen::MatrixXd upstream = half_spaces(of).matrix;
+  for (Eigen::Index j = 0; j < upstream.rows(); j += 3) upstream.row(j).setZero();
+  of.slip = {1.0};
+  statics::RollingProblem<3> p = half_spaces(of);
+  p.upstream = std::move(upstream);
+  p.before = Eigen::VectorXd::Zero(p.size());
   return p;
 }
 

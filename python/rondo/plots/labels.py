@@ -16,7 +16,7 @@ LABELS = {  # of columns, where their name does not say it
     "moment_overturning_iso": "overturning moment (ISO 8855)",
     "slip_angle_degrees": "slip angle", "contact_area_m2": "contact area",
     "footprint_length_m": "length of the footprint", "footprint_width_m": "width of the footprint",
-    "pressure_mean_pa": "mean pressure",
+    "pressure_mean_pa": "mean pressure", "relaxation_length_m": "relaxation length",
     "torque": "torque about the center", "contact_nodes": "nodes in contact",
     "sticking_nodes": "nodes that stick", "contact_length_m": "contact length",
     "penetration_max_m": "largest penetration", "kinetic": "kinetic energy",

@@ -137,6 +137,10 @@ struct AnalysisCase {
   bool accept_scheme_power = false;            ///< a large power of the discretisation is no fault
   std::optional<double> load{};  ///< F_y > 0, instead of height or depth                   [N/m]
   double turn_slip = 0.0;        ///< φ: yaw rate of the path over the speed, > 0 to the left [1/m]
+  // A step of the slip of a wheel that rolls steadily, after which it rolls on:
+  std::optional<double> slip_angle_step{};  ///< instead of slip_ratio_step; none: no step [rad]
+  std::optional<double> slip_ratio_step{};  ///< instead of slip_angle_step; none: no step      [-]
+  std::optional<double> step_distance{};    ///< > 0; given with a step                         [m]
   std::optional<double> traction{}, torque{};  ///< F_x, or clockwise torque on the rim, instead of
                                                ///< the speed                             [N/m], [N]
 };

@@ -135,6 +135,15 @@ bool has_traction(const Case& c) {
 bool has_torque(const Case& c) {
   return c.analysis.torque.has_value();
 }
+bool has_slip_angle_step(const Case& c) {
+  return c.analysis.slip_angle_step.has_value();
+}
+bool has_slip_ratio_step(const Case& c) {
+  return c.analysis.slip_ratio_step.has_value();
+}
+bool has_step_distance(const Case& c) {
+  return c.analysis.step_distance.has_value();
+}
 bool has_height(const Case& c) {
   return is_held(c) && !has_load(c);
 }
@@ -697,6 +706,19 @@ constexpr CaseKey keys[] = {
      "Torque on the rim, clockwise, given instead of `motion.speed`: > 0 drives towards +x, 0 is "
      "free rolling. At constant spin the torque of the ground about the center is as large and "
      "counter-clockwise"},
+    {"analysis.slip_angle_step", "rad", FIELD(analysis.slip_angle_step),
+     with(slanted, "in rad: 1° is 0.01745"),
+     optional.of(of_steady_rolling).if_(has_slip_angle_step, "none").body(never),
+     "Change of the slip angle of a wheel in three dimensions that rolls steadily, after which it "
+     "rolls on over `step_distance` ([relaxation lengths](steady.md#relaxation-lengths)). Not "
+     "together with `slip_ratio_step`"},
+    {"analysis.slip_ratio_step", "-", FIELD(analysis.slip_ratio_step), between(-0.5, 0.5),
+     optional.of(of_steady_rolling).if_(has_slip_ratio_step, "none").body(never),
+     "Change of the slip ratio of a wheel in three dimensions that rolls steadily, by a change of "
+     "its speed at the same spin, after which it rolls on over `step_distance`; > 0 drives"},
+    {"analysis.step_distance", "m", FIELD(analysis.step_distance), positive,
+     optional.of(of_steady_rolling).if_(has_step_distance, "required with a step").body(never),
+     "Distance rolled after a step of the slip"},
 
     {"time.end", "s", FIELD(time.end), positive,
      required.said("required if dynamic").body(never).free_on_resume(),

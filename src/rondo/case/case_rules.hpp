@@ -46,6 +46,9 @@ void check_part(CaseValues& in, const Case& c, const std::string& table);
 /// Checks that there is ground and that it is flat. @param who needs it
 void check_flat_ground(CaseValues& in, const Case& c, std::string_view who);
 
+/// Rules of a step of the slip in steady rolling.
+void check_slip_step(CaseValues& in, const Case& c);
+
 /// Rules of initial.state = "steady-rolling".
 void check_steady_start(CaseValues& in, const Case& c);
 

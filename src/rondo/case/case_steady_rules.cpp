@@ -191,6 +191,7 @@ void check_steady_rolling(CaseValues& in, Case& c) {
   check_given(in);
   check_traction(in, c);
   check_samples(in, c);
+  check_slip_step(in, c);
   check_flat_ground(in, c, "steady rolling");
   if (c.body_contact.between != BodyContact::none)
     in.fault("contact.between", "steady rolling supports contact with the ground only", "\"none\"");

@@ -28,12 +28,11 @@ constexpr std::array run_marks = {"run.json", "results.h5", "history.csv", "mode
                                   "modes.h5"};
 /// Files of a run or of modes in the order in which they are removed: after an interruption, the
 /// rest is still recognised as a run, and no checkpoint remains without its files.
-constexpr std::array output_files = {"checkpoint.h5",       "checkpoint.h5.new", "results.h5.new",
-                                     "history.csv",         "contact.csv",       "convergence.csv",
-                                     "cords.csv",           "fields.xdmf",       "fields.vtkhdf",
-                                     "fields.vtkhdf.new",   "results.h5",        "modes.h5",
-                                     "modes.xdmf",          "modes.csv",         "campbell.csv",
-                                     "critical-speeds.csv", "modes.json"};
+constexpr std::array output_files = {
+    "checkpoint.h5",     "checkpoint.h5.new",   "results.h5.new", "history.csv", "contact.csv",
+    "convergence.csv",   "slip-step.csv",       "cords.csv",      "fields.xdmf", "fields.vtkhdf",
+    "fields.vtkhdf.new", "results.h5",          "modes.h5",       "modes.xdmf",  "modes.csv",
+    "campbell.csv",      "critical-speeds.csv", "modes.json"};
 constexpr std::array input_files = {"mesh.msh", "case.toml"};
 constexpr std::array pod_files = {
     "pod.json", "pod.h5", "spectrum.csv", "modes.xdmf", "reconstruction.xdmf", "basis.h5"};

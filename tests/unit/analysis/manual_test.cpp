@@ -9,6 +9,7 @@
 #include <set>
 
 #include "rondo/analysis/registry.hpp"
+#include "rondo/analysis/steady/slip_step.hpp"
 #include "rondo/output/columns.hpp"
 #include "rondo/study/run_json/run_json.hpp"
 #include "unit/case/case_fixture.hpp"
@@ -68,7 +69,8 @@ TEST(Manual, HasTheColumns) {
        table_of("wheel in three dimensions", further(solid)),
        table_of("contact.csv", labels_of(contact_columns(false))),
        table_of("contact.csv of a wheel in three dimensions", labels_of(contact_columns(true))),
-       table_of("contact.csv steady-rolling", further_contact_of(rolls))});
+       table_of("contact.csv steady-rolling", further_contact_of(rolls)),
+       table_of("slip-step.csv", slip_step_labels())});
 }
 
 TEST(Manual, HasTheMembersOfRunJson) {

@@ -93,6 +93,35 @@ TEST(CaseSteady, TakesATurnSlipOfAWheelAlone) {
   EXPECT_NE(faults[0].message.find("motion.turn_slip"), std::string::npos) << faults[0].message;
 }
 
+TEST(CaseSteady, TakesAStepOfTheSlipOfAWheelAlone) {
+  const std::string wheel = "disk.width=0.1", upwind = "analysis.slip=upwind",
+                    turns = "analysis.slip_angle_step=0.01",
+                    slips = "analysis.slip_ratio_step=0.01", far = "analysis.step_distance=2";
+  const Case c = read_text(rolling(), {wheel, upwind, turns, far});
+  EXPECT_EQ(c.analysis.slip_angle_step, 0.01);
+  EXPECT_EQ(c.analysis.slip_ratio_step, std::nullopt);
+  EXPECT_EQ(c.analysis.step_distance, 2.0);
+  EXPECT_EQ(write_case(read_text(write_case(c))), write_case(c));
+  constexpr int table_line = 38;
+  expect_fault(rolling(), "analysis.step_distance", table_line, "is missing",
+               {wheel, upwind, slips});
+  expect_fault(rolling(), "analysis.step_distance", 0, "without a step", {wheel, upwind, far});
+  expect_fault(rolling(), "analysis.slip_ratio_step", 0, "together with analysis.slip_angle_step",
+               {wheel, upwind, turns, slips, far});
+  expect_fault(rolling(), "analysis.slip", table_line, "the places of one sample before",
+               {wheel, turns, far});
+  expect_fault(rolling(), "analysis.slip_angle_step", 0, "this body is plane",
+               {upwind, turns, far});
+  expect_fault(rolling(), "analysis.slip_angle_step", 0, "is 0: nothing changes",
+               {wheel, upwind, "analysis.slip_angle_step=0", far});
+  expect_fault(rolling(), "analysis.slip_angle_step", 0, "a slip angle of 1.5 rad or more",
+               {wheel, upwind, "motion.slip_angle=0.77", "analysis.slip_angle_step=0.77", far});
+  expect_fault(with_line(speed_line, "", rolling()), "analysis.slip_ratio_step", 0,
+               "follows from the traction or the torque",
+               {wheel, upwind, slips, far, "analysis.torque=0"});
+  expect_fault(base, "analysis.step_distance", 0, "has no effect in a dynamic", {wheel, far});
+}
+
 TEST(CaseSteady, TakesOneSampleWithMass) {
   const Case c =
       read_text(rolling("samples_per_sector = 1\nmassless_contact = false\nslip = 'upwind'\n"),

@@ -73,8 +73,12 @@ fine = {region = "skin"}
     const std::vector<std::string> wheel{"disk.width=2.0", "disk.crown_radius=10.0",
                                          "disk.tread.circumferential_grooves=[[0.1, 0.2]]",
                                          "motion.slip_angle=0.1"};
-    std::vector<std::string> turning = steady;
-    turning.insert(turning.end(), {"disk.width=2.0", "motion.turn_slip=0.1"});
+    std::vector<std::string> turning = steady, slipping = steady;
+    turning.insert(turning.end(), {"disk.width=2.0", "motion.turn_slip=0.1", "analysis.slip=upwind",
+                                   "analysis.slip_angle_step=0.01", "analysis.step_distance=2.0"});
+    slipping.insert(slipping.end(),
+                    {"disk.width=2.0", "analysis.slip=upwind", "analysis.slip_ratio_step=0.01",
+                     "analysis.step_distance=2.0"});
     const std::string section = R"(schema = 1
 [section]
 file = "/folder/tyre.msh"
@@ -139,6 +143,7 @@ end = 0.2
                   {"material.region=[{layers = [1]}]"}),
         read_text(treaded(), wheel),
         read_text(base, turning),
+        read_text(base, slipping),
         read_text(section),
         read_text(inflated, cords),
         read_text(inflated, lifted),

@@ -40,7 +40,8 @@ TEST(ResultsDirectory, OverwriteRemovesTheRunAndNothingElse) {
   const std::vector<std::string> run = {"case.toml",       "run.json",       "history.csv",
                                         "contact.csv",     "results.h5",     "fields.xdmf",
                                         "checkpoint.h5",   "results.h5.new", "checkpoint.h5.new",
-                                        "convergence.csv", "fields.vtkhdf",  "fields.vtkhdf.new"};
+                                        "convergence.csv", "fields.vtkhdf",  "fields.vtkhdf.new",
+                                        "slip-step.csv"};
   for (const std::string& name : run) put_text(folder / name, "old");
   put_text(folder / "notes.txt", "mine");
   fs::create_directories(folder / "pod/displacement-rotating");

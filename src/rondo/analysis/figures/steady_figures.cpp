@@ -53,6 +53,8 @@ constexpr std::array steady_solid_columns{
     FigureColumn{"slip_ratio", "1", "as in history.csv"},
     FigureColumn{"rolling_resistance", "N", "power lost over speed"},
     FigureColumn{"cornering_stiffness", "N/rad", "-∂force_lateral/∂slip_angle there"},
+    FigureColumn{"relaxation_length_m", "m",
+                 "after a step of the slip: of force_lateral, or of force_x"},
     FigureColumn{"stick_share", "1", "of the area of contact, what sticks"},
     FigureColumn{"contact_area_m2", "m2", "mean over a sector's pass"},
     FigureColumn{"footprint_length_m", "m", "extent of the contact along the heading, likewise"},
@@ -99,6 +101,9 @@ std::vector<double> steady_figures_of(const Json& run, bool solid) {
   if (solid) {
     const Json slopes = steady.value("slopes", Json::object());
     figures.push_back(-number(slopes.value("by_slip_angle", Json::object()), "force_lateral"));
+    const Json step = run.value("slip_step", Json::object());
+    const char* force = step.contains("force_lateral") ? "force_lateral" : "force_x";
+    figures.push_back(number(step.value(force, Json::object()), "relaxation_length"));
   }
   figures.push_back(stick / (stick + slip));
   figures.push_back(stick + slip);

@@ -17,6 +17,7 @@
 #include "rondo/analysis/steady/scheme_power.hpp"
 #include "rondo/analysis/steady/steady_case.hpp"
 #include "rondo/analysis/steady/steady_members.hpp"
+#include "rondo/output/kept/kept_files.hpp"
 
 namespace rondo::study {
 namespace {
@@ -38,7 +39,8 @@ class SteadyRolling final : public Analysis {
         threads_(options.threads),
         body_(rolled_body(c, options.shared)),
         ground_(c.ground->shape),
-        strain_(body_->mesh, body_->materials) {
+        strain_(body_->mesh, body_->materials),
+        directory_(options.directory) {
     if (has_large_strains(c)) strain_.take_large_strains();
     refuse_held_in_ground(c, body_->mesh);
     tell_physical_figures(c, {body_->mesh, body_->materials, body_->inflation}, told_);
@@ -80,7 +82,9 @@ class SteadyRolling final : public Analysis {
   std::unique_ptr<RolledState> state_;
   double solve_s_ = 0.0;
   Snapshot now_;
-  int recorded_ = 0;  ///< places of a sector's pass whose results are kept
+  std::filesystem::path directory_;        ///< empty: into memory
+  std::optional<io::CsvPlace> slip_step_;  ///< of slip-step.csv
+  int recorded_ = 0;                       ///< places of a sector's pass whose results are kept
   std::optional<std::string> trouble_;
 };
 
@@ -94,6 +98,10 @@ CheckReport SteadyRolling::check(double /*trial*/) {
   r.lines.emplace_back(
       "sectors", fmt::format("{} of {} degrees of freedom, {} samples each", body_->mesh.n_sectors,
                              body_->sector_dofs, samples()));
+  if (has_slip_step(case_))
+    r.lines.emplace_back(
+        "slip step", fmt::format("{:.4g} m rolled after it, {} steps a turn",
+                                 *case_.analysis.step_distance, body_->mesh.n_sectors * samples()));
   r.warnings = warnings();
   return r;
 }
@@ -132,6 +140,8 @@ void SteadyRolling::describe(Json& j) const {
 }
 
 Progress SteadyRolling::begin(Recorder& /*recorder*/) {
+  if (state_ && state_->slip_step() && !directory_.empty())
+    slip_step_ = write_slip_step(*state_->slip_step(), directory_);
   return {0, samples()};
 }
 
@@ -151,6 +161,8 @@ std::vector<std::string> SteadyRolling::warnings_of_state() const {
   if (case_.analysis.load && wall)
     all.push_back(hardly_pressed("analysis.load", state_->deflection(), wall->radius));
   std::erase(all, std::string());
+  if (const SlipStep* step = state_->slip_step())
+    for (std::string& warning : study::warnings_of(case_, *step)) all.push_back(std::move(warning));
   return all;
 }
 
@@ -196,6 +208,7 @@ void SteadyRolling::summarise(Json& j, RunReport& r) const {
   add_contact_residual(r, j);
   add_energy_residual(r, {}, j);
   add_penetration(r, j);
+  if (slip_step_) j["files"]["slip-step.csv"] = as_json(*slip_step_);
   if (recorded_ == 0) return;
   state_->describe(j);
   for (std::string& note : state_->notes()) r.notes.push_back(std::move(note));

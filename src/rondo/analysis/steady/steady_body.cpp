@@ -110,7 +110,8 @@ std::size_t SteadyBody<D>::memory(const Case& c) const {
   const std::size_t transfers =
       std::min(most_kept, nodes * samples * D * D * candidates * sizeof(double));
   const std::size_t pairs = turn * candidates / 8;  // half a sector's pass touches at most
-  constexpr std::size_t of_pairs = 2 * D * D + D * (D - 1);
+  // Matrices and their factors; a step of the slip has two windows more.
+  const std::size_t of_pairs = (2 * D * D + D * (D - 1)) * (has_slip_step(c) ? 3 : 1);
   const std::size_t nonlinear = c.inflation && c.inflation->nonlinear != TyreMotion::linear
                                     ? nonlinear_numbers(nodes, candidates, samples)
                                     : 0;

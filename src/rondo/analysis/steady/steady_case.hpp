@@ -8,6 +8,7 @@
 
 #include "rondo/analysis/base/analysis.hpp"
 #include "rondo/analysis/build/build.hpp"
+#include "rondo/analysis/steady/slip_step.hpp"
 #include "rondo/modal/critical_speeds.hpp"
 #include "rondo/output/recorder.hpp"
 #include "rondo/output/run_files.hpp"
@@ -58,8 +59,10 @@ class RolledState {
   [[nodiscard]] virtual const statics::RollingPower& power() const noexcept = 0;
   /// Tells the user that a solved state is not accurate; empty: it is.
   [[nodiscard]] virtual std::string warning() const = 0;
-  /// Adds "steady" to run.json.
+  /// Adds "steady" and "slip_step" to run.json.
   virtual void describe(Json& json) const = 0;
+  /// Null: the case has no step of the slip.
+  [[nodiscard]] virtual const SlipStep* slip_step() const noexcept = 0;
   /// Forces, height, speed and slip, for the user.
   [[nodiscard]] virtual std::vector<std::string> notes() const = 0;
 };

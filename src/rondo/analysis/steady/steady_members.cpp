@@ -302,7 +302,7 @@ void add_steady(const SteadyFigures& figures, Json& json) {
 }
 
 std::vector<MemberText> steady_members() {
-  return joined({texts_of(harmonics_rows), texts_of(state_rows)});
+  return joined({texts_of(harmonics_rows), texts_of(state_rows), slip_step_members()});
 }
 
 }  // namespace rondo::study

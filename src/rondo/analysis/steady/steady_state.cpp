@@ -51,7 +51,15 @@ SteadyState<D>::SteadyState(const Case& c, const SteadyBody<D>& body)
   demand_free_shape(c, window_.lowest(), body.radius);
   solve();
   refuse();
-  if (solution_.end == statics::RollingEnd::solved) sum_up();
+  if (solution_.end != statics::RollingEnd::solved) return;
+  sum_up();
+  if (has_slip_step(c)) step_slip();
+}
+
+template <int D>
+void SteadyState<D>::step_slip() {
+  if constexpr (D == 3)
+    slip_step_ = roll_after_step(case_, {window_, drive_, solution_, body_.radius});
 }
 
 /// In the plane, where the speed is asked for and Newton does not find it, from the statuses of
@@ -168,6 +176,7 @@ std::string SteadyState<D>::trouble() const {
   if (!(power_.residual <= residual_bound))
     return fmt::format("the power does not balance: relative residual {:.3g}, bound {:.0e}",
                        power_.residual, residual_bound);
+  if (slip_step_) return slip_step_->trouble;
   return {};
 }
 

@@ -48,6 +48,9 @@ class SteadyState final : public RolledState {
     return slip_warning(case_, slip_error_, solution_.forces);
   }
   void describe(Json& json) const override;
+  [[nodiscard]] const SlipStep* slip_step() const noexcept override {
+    return slip_step_ ? &*slip_step_ : nullptr;
+  }
   [[nodiscard]] std::vector<std::string> notes() const override;
 
  private:
@@ -65,6 +68,7 @@ class SteadyState final : public RolledState {
   void solve();
   void estimate_slip_error();
   void refuse() const;
+  void step_slip();
   [[nodiscard]] std::string nothing_touches() const;
   [[nodiscard]] std::string why_it_slides() const;
   [[nodiscard]] std::string not_solved() const;
@@ -102,6 +106,7 @@ class SteadyState final : public RolledState {
   std::vector<double> energies_;  ///< (P) stored at each place, if it is not [J]
   statics::RollingPower power_;
   std::optional<SlipError> slip_error_;    ///< none: not asked for, or not found
+  std::optional<SlipStep> slip_step_;      ///< none: not asked for
   Eigen::MatrixXd u_, rate_;               ///< (D n_local, L); rates once a place is filled
   std::vector<std::size_t> candidate_of_;  ///< (n) place in mesh.boundary
   std::vector<double> extent_;             ///< (pairs) deformed length or area, where pressed

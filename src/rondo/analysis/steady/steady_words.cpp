@@ -171,6 +171,8 @@ std::vector<std::string> SteadyState<D>::notes() const {
                              : std::string())};
   }
   if (std::string lost = resistance_note(); !lost.empty()) notes.push_back(std::move(lost));
+  if (slip_step_)
+    for (std::string& note : notes_of(case_, *slip_step_)) notes.push_back(std::move(note));
   return notes;
 }
 
@@ -181,6 +183,7 @@ void SteadyState<D>::describe(Json& json) const {
   add_steady({case_, solution_, mean_, power_, parts, slip_error_, height(), slip_ratio(),
               resistance(), window_.pairs().size(), D == 3, finite_ ? &finite_->effort : nullptr},
              json);
+  if (slip_step_) add_slip_step(case_, *slip_step_, json);
 }
 
 template void SteadyBody<2>::add_columns(RecordPlan&) const;

@@ -35,6 +35,11 @@ struct RollingProblem {
   Eigen::MatrixXd matrix_place;  ///< ((D - 1) pairs, D pairs) what forces add to them       [m/N]
   double base_weight = 0.0;  ///< torque of the weight about the axle without forces         [N m]
   Eigen::VectorXd weight;    ///< (D pairs) what forces add to it                              [m]
+  /// Empty where rolling is steady; else (rolling_transient.hpp) what forces of the step before
+  /// moved the points of all pairs by, along t1 and t2, at the samples that these had then; 0 along
+  /// n. (D pairs, D pairs) [m/N]
+  Eigen::MatrixXd upstream{};
+  Eigen::VectorXd before{};  ///< (D pairs) those forces, which are counted in the base        [N]
 
   [[nodiscard]] Eigen::Index size() const noexcept { return base.size(); }
   [[nodiscard]] Eigen::Index n_pairs() const noexcept { return base.size() / D; }

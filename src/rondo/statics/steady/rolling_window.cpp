@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/statics/steady/rolling_transient.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -22,7 +23,7 @@ NodeMatrix<D> rotation_matrix(Complex r) noexcept {
 
 std::vector<double> weights_of(SlipDifference slip) {
   if (slip == SlipDifference::standing) return {1.0};
-  if (slip == SlipDifference::upwind) return {1.0, -1.0};
+  if (slip == SlipDifference::upwind || slip == SlipDifference::transient) return {1.0, -1.0};
   return {1.5, -2.0, 0.5};
 }
 
@@ -34,10 +35,12 @@ RollingWindow<D>::RollingWindow(const RollingHarmonics<D>& harmonics, SlipDiffer
     : harmonics_(harmonics),
       gravity_{gravity * std::cos(camber), gravity * std::sin(camber)},
       weights_(weights_of(slip)),
+      n_now_(slip == SlipDifference::transient ? 1 : weights_.size()),
       included_(harmonics.n_candidates(),
                 std::vector<char>(static_cast<std::size_t>(harmonics.turn()))) {
   const bool stands = slip == SlipDifference::standing;
-  RONDO_DEMAND(stands == (harmonics.body().spin == 0.0) && (D == 3 || !stands),
+  RONDO_DEMAND(stands == (harmonics.body().spin == 0.0) &&
+                   (D == 3 || (!stands && slip != SlipDifference::transient)),
                harmonics.body().spin);
   const double spin = harmonics.body().spin, sample = 2.0 * std::numbers::pi / harmonics.turn();
   problem_.lean = rotation(camber);
@@ -71,7 +74,7 @@ template <int D>
 typename RollingWindow<D>::Kernel RollingWindow<D>::kernel(std::size_t a, std::size_t b,
                                                            int ahead) const noexcept {
   Kernel k{harmonics_.compliance(a, b, ahead), NodeMatrix<D>::Zero()};
-  for (std::size_t j = 0; j < weights_.size(); ++j) {
+  for (std::size_t j = 0; j < n_now_; ++j) {
     const int by = problem_.back * static_cast<int>(j);
     const NodeMatrix<D> moved = harmonics_.compliance(a, b, ahead + by);
     if constexpr (D == 2)
@@ -149,6 +152,13 @@ NodeVector<D> RollingWindow<D>::free_way(const RollingPair& p) const noexcept {
 }
 
 template <int D>
+void RollingWindow<D>::roll_on_from(Eigen::VectorXd force) {
+  RONDO_DEMAND(is_transient() && force.size() <= problem_.size(), force.size());
+  force.conservativeResizeLike(Eigen::VectorXd::Zero(problem_.size()));
+  statics::roll_on_from(problem_, force);
+}
+
+template <int D>
 double RollingWindow<D>::lowest() const noexcept {
   double least = 0.0;
   for (std::size_t a = 0; a < harmonics_.n_candidates(); ++a) {
@@ -189,7 +199,7 @@ void RollingWindow<D>::fill_bases() {
 
 template <int D>
 void RollingWindow<D>::soften(Softness softness) {
-  RONDO_DEMAND(D == 3);
+  RONDO_DEMAND(D == 3 && !is_transient());
   softness_ = std::move(softness);
   if (response_.size() > 0) foresee_nothing();
   fill_columns(0);
@@ -228,6 +238,9 @@ void RollingWindow<D>::fill_base(Index at) {
   problem_.base_place.template segment<D - 1>((D - 1) * at) = place.template tail<D - 1>();
   problem_.weight.template segment<D>(D * at) =
       to_ground(p.sample) * (gravity_.down * harmonics_.weight_torque(p.candidate, p.sample));
+  if (is_transient())
+    problem_.base.template segment<D>(D * at) -=
+        problem_.upstream.template middleRows<D>(D * at) * problem_.before;
 }
 
 /// All columns of a pair's forces, from a row on.
@@ -247,6 +260,22 @@ void RollingWindow<D>::fill_column(Index of, Index from) {
     problem_.matrix_place.template block<D - 1, D>((D - 1) * p, D * of) =
         u.template bottomRows<D - 1>();
   }
+  if (is_transient()) fill_upstream(of, from);
+}
+
+/// What of the ways is by forces of the step before.
+template <int D>
+void RollingWindow<D>::fill_upstream(Index of, Index from) {
+  const RollingPair& pair = problem_.pairs[static_cast<std::size_t>(of)];
+  const NodeMatrix<D> forces = to_ground(pair.sample).transpose();
+  for (Index p = from; p < std::ssize(problem_.pairs); ++p) {
+    const RollingPair& row = problem_.pairs[static_cast<std::size_t>(p)];
+    const int ahead = row.sample - pair.sample + problem_.back;
+    const NodeMatrix<D> u = harmonics_.compliance(row.candidate, pair.candidate, ahead);
+    auto here = problem_.upstream.template block<D, D>(D * p, D * of);
+    here = -weights_[1] * (to_ground(row.sample) * u * forces);
+    here.row(0).setZero();
+  }
 }
 
 template <int D>
@@ -263,8 +292,12 @@ void RollingWindow<D>::include(const std::vector<RollingPair>& pairs) {
   problem_.weight.conservativeResize(D * n);
   problem_.matrix.conservativeResize(D * n, D * n);
   problem_.matrix_place.conservativeResize((D - 1) * n, D * n);
-  for (Index p = before; p < n; ++p) fill_base(p);
+  if (is_transient()) {
+    problem_.upstream.conservativeResize(D * n, D * n);
+    problem_.before.conservativeResizeLike(Eigen::VectorXd::Zero(D * n));
+  }
   fill_columns(before);
+  for (Index p = before; p < n; ++p) fill_base(p);
 }
 
 /// Those of pairs so far and what pairs from one on add.

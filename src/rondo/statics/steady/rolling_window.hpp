@@ -18,8 +18,10 @@ namespace rondo::statics {
 /// How the slip of a material point is taken: from its place one sample before, or from two. In the
 /// plane it is a difference of whole places; in space the turn is exact, and the difference is one
 /// of displacements. A standing body, in space alone, does not pass samples: the way of a point is
-/// its displacement less the one that count_from() gave, and the time of a sample is 1.
-enum class SlipDifference { bdf2, upwind, standing };
+/// its displacement less the one that count_from() gave, and the time of a sample is 1. A transient
+/// takes the slip as "upwind" does, but the earlier place from the forces that roll_on_from() gave;
+/// in space alone.
+enum class SlipDifference { bdf2, upwind, standing, transient };
 
 template <int D>
 class RollingWindow {
@@ -60,6 +62,9 @@ class RollingWindow {
   /// Ways of a standing body are counted from here; at first from where nothing is displaced.
   /// @param displacement (D C, L) of the candidates, in the frames of their sectors [m]
   void count_from(Eigen::MatrixXd displacement);
+  /// Ways of a transient are counted from the displacements by these forces; at first by none.
+  /// @param force (D pairs so far) [N]
+  void roll_on_from(Eigen::VectorXd force);
   /// Empty: nothing was taken.
   [[nodiscard]] const Eigen::MatrixXcd& response() const noexcept { return response_; }
   /// Distance of the lowest contact node from the center where nothing touches, as spin, gravity
@@ -81,6 +86,7 @@ class RollingWindow {
   struct Kernel {
     NodeMatrix<D> moved, slipped;
   };
+  [[nodiscard]] bool is_transient() const noexcept { return n_now_ < weights_.size(); }
   [[nodiscard]] Kernel kernel(std::size_t a, std::size_t b, int ahead) const noexcept;
   [[nodiscard]] Kernel kernel(const RollingPair& of, const RollingPair& by) const noexcept;
   void add_softness(const RollingPair& of, const RollingPair& by, Kernel& k) const;
@@ -93,6 +99,7 @@ class RollingWindow {
   void fill_bases();
   void fill_base(Eigen::Index pair);
   void fill_column(Eigen::Index of, Eigen::Index from);
+  void fill_upstream(Eigen::Index of, Eigen::Index from);
   void fill_columns(Eigen::Index from);
 
   const RollingHarmonics<D>& harmonics_;
@@ -100,6 +107,7 @@ class RollingWindow {
   std::vector<Complex> frames_;           ///< (L)
   std::vector<NodeMatrix<D>> to_ground_;  ///< (L)
   std::vector<double> weights_;           ///< of a point's own and its earlier places
+  std::size_t n_now_;  ///< so many of these places are by the forces of now; of a transient one
   double turn_;  ///< s of a sample's time; 0 of a standing body                            [rad]
   /// (C, C, L) in the plane, where they are few; the same for copies
   std::shared_ptr<const std::vector<Kernel>> kernels_;
