@@ -174,6 +174,8 @@ Model model_of(const Case& c) {
   }
   if (c.sharp)
     ground.profile = {{-1, 0}, {0.035, 0}, {0.036, 0.003}, {0.05, 0.003}, {0.05, 0}, {9, 0}};
+  if (c.sharp && !c.unsteady)  // its height is .29 m
+    for (Vec2& point : ground.profile) point.y -= 0.0098;
   const std::vector<mesh::Edge> edges = mesh::rolling_edges(mesh, "tread");
   const double spacing = c.sharp ? mesh::longest_edge(mesh.coordinates, edges) : 0.0;
   m.contact.emplace(ContactModel{contact::Ground(ground, spacing),

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "rondo/contact/coupled/cholesky.hpp"
 #include "rondo/contact/coupled/spatial_squares.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/keep_larger.hpp"
@@ -15,8 +16,6 @@ namespace {
 
 /// Iterates that are combined.
 constexpr std::size_t depth = 6;
-
-using Gram = std::array<std::array<double, depth>, depth>;
 
 double dot_of(std::span<const Vec3> a, std::span<const Vec3> b) noexcept {
   double sum = 0.0;
@@ -59,26 +58,6 @@ double residual_of(const SpatialCoupled& p, std::span<const Vec3> impulse) noexc
     scale = std::max(scale, mass * norm(p.free[j]));
   }
   return scale > 0.0 ? worst / scale : worst;
-}
-
-/// Solves A x = b by Cholesky's factors, which replace A. @return false: A is not positive definite
-bool solve_small(Gram& a, std::array<double, depth>& b, std::size_t n) noexcept {
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k <= i; ++k) {
-      double sum = a[i][k];
-      for (std::size_t m = 0; m < k; ++m) sum -= a[i][m] * a[k][m];
-      if (i == k && !(sum > 0.0)) return false;
-      a[i][k] = i == k ? std::sqrt(sum) : sum / a[k][k];
-    }
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t m = 0; m < i; ++m) b[i] -= a[i][m] * b[m];
-    b[i] /= a[i][i];
-  }
-  for (std::size_t i = n; i-- > 0;) {
-    for (std::size_t m = i + 1; m < n; ++m) b[i] -= a[m][i] * b[m];
-    b[i] /= a[i][i];
-  }
-  return true;
 }
 
 /// Anderson's acceleration: the combination of the iterates whose changes cancel best.
@@ -128,18 +107,19 @@ class Mixer {
 
   void mix() noexcept {
     if (kept_ == 0) return;
-    Gram gram{};
+    std::array<double, depth * depth> gram{};
     std::array<double, depth> gamma{};
     for (std::size_t i = 0; i < kept_; ++i) {
       const auto one = part(work_.of_change, place(i));
       gamma[i] = dot_of(one, work_.change);
       for (std::size_t k = 0; k <= i; ++k)
-        gram[i][k] = dot_of(one, part(work_.of_change, place(k)));
-      gram[i][i] *= 1.0 + 1e-10;
+        gram[i * kept_ + k] = dot_of(one, part(work_.of_change, place(k)));
+      gram[i * kept_ + i] *= 1.0 + 1e-10;
     }
     constexpr double most = 20.0;  // larger factors are those of nearly equal differences
     double sum = 0.0;
-    const bool solved = solve_small(gram, gamma, kept_);
+    const bool solved =
+        solve_cholesky(std::span(gram).first(kept_ * kept_), std::span(gamma).first(kept_));
     for (const double g : gamma) sum += std::abs(g);
     if (!solved || !(sum < most)) {
       kept_ = 0;
@@ -172,12 +152,18 @@ class Solution {
   [[nodiscard]] bool finished() const noexcept {
     return result_.converged || result_.iterations >= limits_.most_iterations;
   }
+  /// To round-off: where W is nearly singular, velocities are much less exact than the law.
+  [[nodiscard]] bool exact() const noexcept {
+    constexpr double share = 0.01;
+    return (result_.iterations > 0 && result_.residual <= share * limits_.tolerance) ||
+           result_.iterations >= limits_.most_iterations;
+  }
 
   void sweeps(Subset subset = all_contacts) {
     constexpr int most = 20;
     subset_ = subset;
     Mixer mixer(p_.size(), work_);
-    for (int i = 0; i < most && !finished(); ++i) {
+    for (int i = 0; i < most && !exact(); ++i) {
       make_sweep();
       for (std::size_t j = 0; j < p_.size(); ++j) work_.change[j] = work_.found[j] - work_.from[j];
       mixer.next();
@@ -271,11 +257,12 @@ CoupledResult solve_coupled(const SpatialCoupled& p, const CoupledLimits& limits
                p.blocks.size(), impulse.size(), status.size(), n);
   Solution solution(p, limits, impulse, status, work);
   solution.sweeps();
-  if (!solution.finished()) solution.squares();
+  if (!solution.exact()) solution.squares();
   if (!solution.finished()) solution.subsets();
   for (const double pressed : {0.0, 1.0})
     if (!solution.finished()) solution.squares_by_friction(pressed);
   while (!solution.finished()) solution.squares_from_anywhere();
+  if (!solution.exact()) solution.squares();
   return solution.result();
 }
 

@@ -54,12 +54,13 @@ struct SpatialWorkspace {
   // Of least squares:
   std::vector<Vec3> value, trial;  ///< (nc)
   std::vector<double> slope;       ///< (3 nc, 3 nc)
-  BandLu matrix;                   ///< (3 nc)
+  std::vector<double> matrix;      ///< (3 nc, 3 nc)
   std::vector<double> step;        ///< (3 nc)
 };
 
-/// Impulses that obey the law at all contacts together. `impulse` and `status` (nc) are those of
-/// the best iterate; the residual is the largest law residual over the largest mass |free|.
+/// Impulses that obey the law at all contacts together. `impulse` (nc) comes in as a warm start and
+/// leaves, with `status` (nc), as the best iterate; the residual is the largest law residual over
+/// the largest mass |free|.
 /// @post r_n >= 0, |r_t| <= μ r_n to round-off.
 [[nodiscard]] CoupledResult solve_coupled(const SpatialCoupled& problem,
                                           const CoupledLimits& limits, std::span<Vec3> impulse,

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rondo/core/index.hpp"
+#include "rondo/contact/coupled/cholesky.hpp"
 
 namespace rondo::contact {
 namespace {
@@ -88,10 +88,10 @@ double component(Vec3 a, std::size_t i) noexcept {
   return i == 0 ? a.x : i == 1 ? a.y : a.z;
 }
 
-/// (JᵀJ + shift) step = -JᵀF. @return false: a pivot is 0
+/// (JᵀJ + shift) step = -JᵀF. @return false: a pivot is not positive
 bool find_step(std::size_t n, double shift, SpatialWorkspace& work) {
   const std::size_t order = 3 * n;
-  work.matrix.reset(static_cast<int>(order), static_cast<int>(order) - 1);
+  work.matrix.assign(order * order, 0.0);
   work.step.assign(order, 0.0);
   for (std::size_t row = 0; row < order; ++row) {
     const double* const j = work.slope.data() + row * order;
@@ -99,15 +99,12 @@ bool find_step(std::size_t n, double shift, SpatialWorkspace& work) {
     for (std::size_t a = 0; a < order; ++a) {
       if (j[a] == 0.0) continue;
       work.step[a] -= j[a] * f;
-      for (std::size_t b = 0; b < order; ++b)
-        work.matrix.at(static_cast<int>(a), static_cast<int>(b)) += j[a] * j[b];
+      double* const to = work.matrix.data() + a * order;
+      for (std::size_t b = 0; b <= a; ++b) to[b] += j[a] * j[b];
     }
   }
-  for (std::size_t a = 0; a < order; ++a)
-    work.matrix.at(static_cast<int>(a), static_cast<int>(a)) += shift;
-  if (!work.matrix.factorise()) return false;
-  work.matrix.solve(work.step);
-  return true;
+  for (std::size_t a = 0; a < order; ++a) work.matrix[a * order + a] += shift;
+  return solve_cholesky(work.matrix, work.step);
 }
 
 double scale_of(const SpatialCoupled& p) noexcept {

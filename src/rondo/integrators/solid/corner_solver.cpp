@@ -18,6 +18,13 @@ using contact::KeptImpulses;
 using contact::Status;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Marks the key of the part of an impulse along t2.
+constexpr std::uint64_t along_line = 1ULL << 61U;
+
+Vec3 impulse_before(const KeptImpulses& before, std::uint64_t key) noexcept {
+  return {contact::kept_impulse(before, key), contact::kept_impulse(before, key | along_line).x};
+}
+
 /// Sweeps and steps of least squares after which a problem counts as beyond the solver.
 constexpr int most_iterations = 2000;
 
@@ -84,7 +91,7 @@ void CornerSolver::solve(const SolidContactStep& step, const KeptImpulses& befor
   }
   const contact::Clusters& clusters = cluster_finder_.find(node_start_, nodes_, model_.n_nodes());
   for (std::size_t k = 0; k < clusters.size(); ++k)
-    solve_together(step, clusters[k], state, report);
+    solve_together(step, before, clusters[k], state, report);
 }
 
 /// w⁻ and w without impulses.
@@ -185,13 +192,15 @@ void CornerSolver::make_problem(const SolidContactStep& step, Rows rows) {
 
 /// Contacts that hold the same by many normals may be beyond the solver. Then the corner that is
 /// the least deep is left out of this step, and so on: what is left obeys the law.
-contact::CoupledResult CornerSolver::solve_problem(const SolidContactStep& step, Rows rows,
+contact::CoupledResult CornerSolver::solve_problem(const SolidContactStep& step,
+                                                   const KeptImpulses& before, Rows rows,
                                                    ContactReport& report) {
   asked_.assign(rows.begin(), rows.end());
   const auto is_corner = [&](int j) { return rows_[at(j)].kind == ContactKind::corner; };
   for (;;) {
     make_problem(step, asked_);
-    impulse_.assign(asked_.size(), Vec3{});
+    impulse_.clear();
+    for (const int j : asked_) impulse_.push_back(impulse_before(before, rows_[at(j)].key));
     status_.assign(asked_.size(), Status::open);
     const contact::CoupledResult result =
         contact::solve_coupled(problem_, limits_, impulse_, status_, work_);
@@ -203,9 +212,9 @@ contact::CoupledResult CornerSolver::solve_problem(const SolidContactStep& step,
   }
 }
 
-void CornerSolver::solve_together(const SolidContactStep& step, Rows rows, State& state,
-                                  ContactReport& report) {
-  const contact::CoupledResult result = solve_problem(step, rows, report);
+void CornerSolver::solve_together(const SolidContactStep& step, const KeptImpulses& before,
+                                  Rows rows, State& state, ContactReport& report) {
+  const contact::CoupledResult result = solve_problem(step, before, rows, report);
   for (std::size_t j = 0; j < asked_.size(); ++j) {
     rows_[at(asked_[j])].impulse = impulse_[j];
     rows_[at(asked_[j])].status = status_[j];
@@ -300,8 +309,10 @@ void CornerSolver::add_active(const SolidContactStep& step, const CornerRow& row
 }
 
 void CornerSolver::add_impulses_to(KeptImpulses& kept) const {
-  for (const CornerRow& row : rows_)
-    kept.emplace_back(row.key, Vec2{row.impulse.x, std::hypot(row.impulse.y, row.impulse.z)});
+  for (const CornerRow& row : rows_) {
+    kept.emplace_back(row.key, row.impulse.plane());
+    kept.emplace_back(row.key | along_line, Vec2{row.impulse.z, 0.0});
+  }
   for (const std::uint64_t key : finder_.left_to_nodes()) kept.emplace_back(key, Vec2{});
 }
 

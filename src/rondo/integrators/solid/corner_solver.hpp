@@ -28,8 +28,8 @@ class CornerSolver {
   /// @param before impulses of the step before by the keys of their contacts
   void solve(const SolidContactStep& step, const contact::KeptImpulses& before, State& state,
              ContactReport& report);
-  /// Impulses of the last step, in the order of the contacts: the normal one, the size of the
-  /// tangential one; 0 of those that were left to a node                              [N·s]
+  /// Adds the impulses of the last step by the keys of their contacts: along n and J n, and by a
+  /// marked key along t2; 0 of those that were left to a node                        [N·s]
   void add_impulses_to(contact::KeptImpulses& kept) const;
 
  private:
@@ -43,9 +43,11 @@ class CornerSolver {
   void look_for_late(const SolidContactStep& step, const contact::KeptImpulses& before, double time,
                      ContactReport& report) const;
   [[nodiscard]] bool came_round_an_end(const CornerRow& row) const noexcept;
-  contact::CoupledResult solve_problem(const SolidContactStep& step, Rows rows,
+  contact::CoupledResult solve_problem(const SolidContactStep& step,
+                                       const contact::KeptImpulses& before, Rows rows,
                                        ContactReport& report);
-  void solve_together(const SolidContactStep& step, Rows rows, State& state, ContactReport& report);
+  void solve_together(const SolidContactStep& step, const contact::KeptImpulses& before, Rows rows,
+                      State& state, ContactReport& report);
   void make_problem(const SolidContactStep& step, Rows rows);
   void push_nodes(const SolidContactStep& step, Rows rows, bool converged, State& state) const;
   void finish(const SolidContactStep& step, CornerRow& row, State& state, ContactReport& report);

@@ -49,6 +49,10 @@ CornerContact::CornerContact(const Model& model)
       load_of_(loads_of(model)) {}
 
 void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields& fields) noexcept {
+  if (!any_near() && is_far(steps)) {
+    for (StepContext& step : steps) step.held = nullptr;
+    return;
+  }
   const bool was_near = any_near();
   n_near_ = 0;
   forget_nodes();

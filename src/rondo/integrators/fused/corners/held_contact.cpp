@@ -50,6 +50,16 @@ Model boundary_of(const Model& model) {
   return b;
 }
 
+/// Batches for which a look from afar holds.
+constexpr int batches_between_looks = 64;
+
+bool has_corner_within(const contact::Ground& ground, const Box& box) noexcept {
+  return std::ranges::any_of(ground.corners(box.low.x, box.high.x), [&](const contact::Corner& c) {
+    return c.position.x >= box.low.x && c.position.x <= box.high.x && c.position.y >= box.low.y &&
+           c.position.y <= box.high.y;
+  });
+}
+
 }  // namespace
 
 HeldContact::HeldContact(const Model& model)
@@ -80,7 +90,19 @@ double HeldContact::reach_of(std::size_t n_steps, const CandidateFields& fields,
   farthest_ = std::sqrt(farthest);
   const double time = static_cast<double>(n_steps) * boundary_.dt;
   way_ = 4.0 * touch + 2.0 * time * std::sqrt(fastest);
+  batches_left_ = batches_between_looks;
+  far_ = farthest_ + 5.0 * touch + boundary_.contact->ground.bend_reach() +
+         2.0 * batches_between_looks * time * std::sqrt(fastest);
+  looked_ = true;
   return touch + way_ + boundary_.contact->ground.bend_reach();
+}
+
+bool HeldContact::is_far(std::span<const StepContext> steps) noexcept {
+  looked_ = false;
+  if (batches_left_ == 0) return false;
+  --batches_left_;
+  look_around(steps, far_ - farthest_);
+  return !has_corner_within(boundary_.contact->ground, around_);
 }
 
 void HeldContact::look_around(std::span<const StepContext> steps, double reach) noexcept {
@@ -97,6 +119,7 @@ void HeldContact::look_around(std::span<const StepContext> steps, double reach) 
 }
 
 double HeldContact::unseen(const CandidateFields& fields, double astray) const noexcept {
+  if (!looked_) return 0.0;
   double squared = 0.0;
   for (std::size_t k = 0; k < boundary_.n_nodes(); ++k) {
     const Vec3 way = fields.motion_of(k).u - begin_[k];
@@ -104,12 +127,9 @@ double HeldContact::unseen(const CandidateFields& fields, double astray) const n
   }
   const double moved = std::sqrt(squared) + astray;
   if (!(moved > way_)) return 0.0;
-  const auto corners =
-      boundary_.contact->ground.corners(around_.low.x - moved, around_.high.x + moved);
-  const bool near = std::ranges::any_of(corners, [&](const contact::Corner& c) {
-    return c.position.x >= around_.low.x - moved && c.position.x <= around_.high.x + moved &&
-           c.position.y >= around_.low.y - moved && c.position.y <= around_.high.y + moved;
-  });
+  const Vec2 by{moved, moved};
+  const bool near =
+      has_corner_within(boundary_.contact->ground, {around_.low - by, around_.high + by});
   return near ? moved : 0.0;
 }
 

@@ -81,6 +81,9 @@ class HeldContact {
  protected:
   explicit HeldContact(const Model& model);
 
+  /// All corners are so far that the boundary, as it was looked at last, will not come to them in
+  /// this batch: then there is nothing to look at.
+  [[nodiscard]] bool is_far(std::span<const StepContext> steps) noexcept;
   /// How far the boundary may be from where it is during a batch [m]. Sets u of the state.
   /// @param touch how deep a touch may be [m]
   [[nodiscard]] double reach_of(std::size_t n_steps, const CandidateFields& fields,
@@ -99,6 +102,9 @@ class HeldContact {
   State state_;                ///< state of the candidates; only what is near is kept up
   std::vector<Vec3> begin_;    ///< (nb) u where the batch began                           [m]
   double farthest_ = 0.0;      ///< largest distance of a candidate from the center         [m]
+  double far_ = 0.0;           ///< from the center, in the batches until the next look    [m]
+  int batches_left_ = 0;       ///< that need no look where no corner is nearer
+  bool looked_ = false;        ///< at the boundary, for this batch
   double way_ = 0.0;           ///< way that a candidate may come from there               [m]
   Box around_{};               ///< box that holds the boundary in the batch, way_ beside it [m]
   std::vector<int> nodes_;     ///< nodes of the near edges and their neighbours

@@ -31,6 +31,10 @@ double SolidCornerContact::travel(std::span<const StepContext> steps) const noex
 void SolidCornerContact::look_out(std::span<StepContext> steps,
                                   const CandidateFields& fields) noexcept {
   RONDO_ASSERT(!steps.empty(), boundary_.n_nodes());
+  if (!any_near() && is_far(steps)) {
+    for (StepContext& step : steps) step.held = nullptr;
+    return;
+  }
   const bool was_near = any_near();
   near_.clear();
   forget_nodes();
