@@ -118,7 +118,8 @@ class Checked(RoadTest, ProgramTest):
         bumpy[50:60:2] += 0.004  # u = 3.78 to 3.91 m
         (self.folder / "a.crg").write_text(road_text(bumpy))
         text = on_road(SMALL, 'road = "a.crg"')
-        self.assertIn("warning: ground.road: the slope changes by", self.check(text).stderr)
+        self.assertRegex(self.check(text).stderr, "warning: ground.road: the slope changes by 0.[2-9]"
+                                                  "[0-9]* near x = 0.[23][0-9]* m")
         fine = self.check(text, "--set", "disk.mesh.circumferential=130")  # 14.5 mm, below a row
         self.assertNotIn("the slope changes", fine.stderr)
         before = self.check(text, "--set", "motion.speed=0", "--set", "ground.road_start=5")
@@ -127,8 +128,8 @@ class Checked(RoadTest, ProgramTest):
 
 class Resumed(RoadTest, ResumeTest):
     # It rolls slowly, and is on the road to the end.
-    text = replaced(on_road(FREE_RIM, 'road = "a.crg"'), "end", "end = 1.8")
-    text = replaced(replaced(text, "speed", "speed = 1.2"), "angular_velocity", "angular_velocity = 4.0")
+    text = replaced(on_road(FREE_RIM, 'road = "a.crg"'), "end", "end = 17.0")
+    text = replaced(replaced(text, "speed", "speed = 0.12"), "angular_velocity", "angular_velocity = 0.4")
     text = replaced(text, "fillet", None)
 
     def test_a_killed_run_goes_on_to_the_same_bits(self):
@@ -138,7 +139,7 @@ class Resumed(RoadTest, ResumeTest):
         self.assertNotIn("road", written)
         total = (self.whole / "history.csv").read_bytes().count(b"\n")
         process = self.start(self.text)
-        self.assertTrue(self.wait_for_rows(process, 0.2 * total), "it ended before the kill")
+        self.assertTrue(self.wait_for_rows(process, 0.5 * total), "it ended before the kill")
         process.kill()
         process.wait()
         done = self.resume(self.text)

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "rondo/case/features/case_features.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::study {
@@ -118,6 +119,9 @@ void check_ground(CaseValues& in, const Case& c) {
   for (const contact::ShapeFault& fault : contact::shape_faults(c.ground->shape)) {
     if (fault.about_fillet && in.has("ground.fillet"))
       in.fault("ground.fillet", fault.message);
+    else if (c.ground->road.read && fault.point >= 0)
+      in.fault("ground.road", fmt::format("{}, at x = {:.6g} m", fault.message,
+                                          c.ground->shape.profile[at(fault.point)].x));
     else
       in.fault_at_item(ground_key(c), fault.point, fault.message);
   }

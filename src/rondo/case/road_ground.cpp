@@ -86,7 +86,7 @@ bool check_border(CaseValues& in, const RoadCase& road) {
 /// Where x = 0 is, and the plane of the wheel: both are on the road.
 bool check_places(CaseValues& in, RoadCase& road) {
   const road::Road& read = *road.read;
-  const double last = road::Surface(read).u_axis().last();
+  const double last = read.u_last();
   const bool given = road.start.has_value();
   const double start = road.start.value_or(read.u_first + default_start);
   if (!(start >= read.u_first && start <= last))

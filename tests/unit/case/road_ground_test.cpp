@@ -184,6 +184,13 @@ TEST(RoadGround, AWheelWithAWidthAndFlatGround) {
   const std::string steady =
       RoadCaseFile().faults({"analysis.kind=steady-rolling", "time.end=0.1"});
   EXPECT_TRUE(has(steady, "ground.road = \"a.crg\": steady rolling needs flat ground")) << steady;
+  CrgParts spike = small_road();
+  spike.rows[2] = {7.0, 90.0, 9.0};
+  const std::string turned = RoadCaseFile(crg_of(spike)).faults();
+  EXPECT_TRUE(has(turned,
+                  "ground.road = \"a.crg\": the profile turns back on itself here, at x = "
+                  "0.5 m"))
+      << turned;
   const std::string fillet = RoadCaseFile().faults({"ground.fillet=3"});
   EXPECT_TRUE(has(fillet, "the fillet does not fit")) << fillet;
 }
