@@ -76,5 +76,5 @@ for (const place of places) {
   const hover = await ask("textDocument/hover", at);
   found.push({ completions: completions?.items ?? completions ?? [], hover: hover?.contents?.value ?? "" });
 }
-console.log(JSON.stringify({ diagnostics, found }));
-process.exit(0);
+// A pipe takes what is longer than its buffer only bit by bit.
+process.stdout.write(JSON.stringify({ diagnostics, found }), () => process.exit(0));

@@ -100,12 +100,15 @@ scheme = ""
         told = self.ask("cases/new.toml", self.TEXT, "5:0", "7:10", "4:2", "9:0", "11:0")
         faults = {(d["range"]["start"]["line"], d["message"]) for d in told["diagnostics"]}
         self.assertIn((4, "300 is greater than the maximum of 100.0"), faults)
-        self.assertIn((3, '"profile" is a required property'), faults)
+        self.assertIn((6, '"material" is a required property'), faults)
+        self.assertTrue(any(line == 3 and "ground.profile is missing, or ground.road" in message
+                            for line, message in faults))
 
         def labels(k):
             return [item["label"].strip('"') for item in told["found"][k]["completions"]]
 
-        self.assertEqual(set(labels(0)), {"profile", "fillet", "restitution", "impact"})
+        self.assertEqual(set(labels(0)), {"profile", "road", "road_start", "road_offset", "road_border",
+                                          "fillet", "restitution", "impact"})
         self.assertEqual(labels(1)[:3], ["symplectic", "as-printed", "hati"])
         self.assertIn("Coulomb's coefficient of friction μ", told["found"][2]["hover"])
         self.assertIn("Allowed: 0 to 100. Default: 0.0.", told["found"][2]["hover"])

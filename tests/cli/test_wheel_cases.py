@@ -12,7 +12,7 @@ from test_resume import RESULTS, ResumeTest
 CASES = sorted(path for path in (ROOT / "cases").glob("*.toml") if "\n[rim]\n" in path.read_text())
 EXPECTED = {"wheel-settle", "wheel-rolling", "wheel-driven", "wheel-braked", "wheel-lock", "wheel-abs",
             "wheel-incline", "wheel-drop", "wheel-landing", "cleat-load", "cleat-height",
-            "cleat-load-treaded", "cleat-height-treaded", "pothole-load", "sine-road-load",
+            "cleat-load-treaded", "cleat-height-treaded", "pothole-load", "rolling-cobbles", "sine-road-load",
             "quarter-car", "quarter-car-bump", "rubber-tyre", "tyre-load", "wheel3d-load"}
 SHORT = "0.02"  # s: the load is on, all but the dropped wheel touch the ground
 LEDGER = 1e-12

@@ -103,6 +103,11 @@ EXPECTED = {
         *extremes("force_x", -54e3, 37e3, 1e3, FLAT),
         *extremes("spin_rad_s", 14.13, 20.37, 1e-2, FLAT),
         Figure("center_y_m", np.min, 0.2771, 1e-4, FLAT)],
+    "rolling-cobbles": [
+        Figure("force_y", np.mean, 80.84e3, 20.0, 0.1),
+        *extremes("force_y", 60.1e3, 98.3e3, 100.0, 0.1),
+        *extremes("center_y_m", 0.29236, 0.30356, 1e-5, 0.1),
+        *extremes("spin_rad_s", 9.514, 10.917, 1e-3, 0.1)],
     "sine-road-load": [
         *extremes("center_y_m", 0.2889, 0.2967, 1e-4, 0.2, 0.28),
         *extremes("force_y", 71e3, 241e3, 1e3, 0.2, 0.28),

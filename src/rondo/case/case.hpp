@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,10 @@
 #include "rondo/model/motion.hpp"
 #include "rondo/model/rim_body.hpp"
 #include "rondo/model/scheme.hpp"
+
+namespace rondo::road {
+struct Road;
+}
 
 namespace rondo::study {
 
@@ -101,8 +106,20 @@ struct Probe {
   Vec2 position;     ///< [m]
 };
 
+/// A measured road, whose section along u is the ground of a plane body (docs/roads.md, section 3).
+/// The reader makes the points of the ground from it; a case as written has only the points.
+struct RoadCase {
+  std::string file;             ///< as written, relative to the case file's directory; empty: none
+  std::optional<double> start;  ///< u at x = 0; the reader sets it to what it is by default  [m]
+  double offset = 0.0;          ///< v of the section                                         [m]
+  std::string border;           ///< "keep" or "zero"; empty: that of the file
+  std::shared_ptr<const road::Road> read{};  ///< the contents of the file; null: none is read
+  double height = 0.0;                       ///< in the file at x = 0: the ground has 0 there [m]
+};
+
 struct GroundCase {
   contact::GroundShape shape;
+  RoadCase road;
   double friction = 0.0;     ///< μ >= 0
   double restitution = 0.0;  ///< e in [0, 1]
   contact::Impact impact = contact::Impact::moreau;
@@ -265,6 +282,11 @@ inline double spin_at_rest(const Case& c) {
 /// Whether the body is a [disk], in the plane or with a width.
 inline bool is_generated(const Case& c) {
   return !c.mesh && !c.section;
+}
+
+/// The key that gives the ground its shape. @pre there is ground
+inline const char* ground_key(const Case& c) {
+  return c.ground->road.read ? "ground.road" : "ground.profile";
 }
 
 /// The Gmsh file that the body comes from; null: it is generated.

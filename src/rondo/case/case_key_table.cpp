@@ -538,9 +538,25 @@ constexpr CaseKey keys[] = {
      optional.if_(has_free_y).said("the center's height at t = 0").body(never),
      "Height of the center at which the spring along y exerts no force"},
 
-    {"ground.profile", "m", FIELD(ground->shape.profile), any, required,
+    {"ground.profile", "m", FIELD(ground->shape.profile), any,
+     optional.said("required, or ground.road"),
      "Surface of the ground: the line y = 0, a polyline, or a CSV file of its points, relative to "
      "the case file's directory. The `case.toml` of the results contains the points"},
+    {"ground.road", "-", FIELD(ground->road.file), any, optional.if_(never, "none").body(never),
+     "Measured road under a plane body, instead of `profile`: its section along u, relative to the "
+     "case file's directory ([roads.md](roads.md#3-a-road-under-a-plane-wheel)). The `case.toml` "
+     "of the results contains the points of the section as `profile`"},
+    {"ground.road_start", "m", FIELD(ground->road.start), any,
+     optional.if_(never, "first u of the road + 0.5 m").body(never),
+     "Coordinate u of the road where x = 0. The height there is subtracted, so that y = 0 at x = "
+     "0"},
+    {"ground.road_offset", "m", FIELD(ground->road.offset), any,
+     optional.if_(never, "0.0").body(never),
+     "Coordinate v of the road at the plane of the body, > 0 to the left"},
+    {"ground.road_border", "-", FIELD(ground->road.border), one_from("keep", "zero"),
+     optional.if_(never, "that of the file, else \"keep\"").body(never),
+     "Level ground before and behind the road. \"keep\": at the height of its end. \"zero\": at "
+     "the height 0 of the file, with a step at the end"},
     {"ground.fillet", "m", FIELD(ground->shape.fillet), not_negative, optional.of(in_time_untold),
      "Radius that rounds all convex corners of the ground; 0: they are sharp"},
     {"ground.friction", "-", FIELD(ground->friction), between(0, 100), optional.body(never),

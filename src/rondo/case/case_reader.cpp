@@ -5,6 +5,7 @@
 
 #include "rondo/case/case.hpp"
 #include "rondo/case/case_rules.hpp"
+#include "rondo/case/road_ground.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::study {
@@ -111,6 +112,7 @@ Case read_source(const std::filesystem::path& file, CaseSource source) {
   c.file = file;
   c.title = as_utf8(file.stem().string());
   read_keys(in, c);
+  take_road(in, c);
   require_keys(in, c);
   refuse_keys_of_others(in, c);
   check_analysis(in, c);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "rondo/case/features/case_features.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/mesh/physical_group.hpp"
 
 namespace rondo::study {
@@ -111,15 +112,18 @@ void check_ground(CaseValues& in, const Case& c) {
   if (!c.ground) return;
   const MeshCase* const file = mesh_file_of(c);
   if (file && file->contact.empty())
-    in.fault("ground.profile", "no part of the mesh may touch the ground",
+    in.fault(ground_key(c), "no part of the mesh may touch the ground",
              fmt::format("{}.contact = \"tread\" beside it, a physical curve; {}",
                          c.mesh ? "mesh" : "section", mesh::physical_group_line("Curve", "tread")));
-  if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
+  if (!in.good({"ground", "ground.profile", "ground.road", "ground.fillet"})) return;
   for (const contact::ShapeFault& fault : contact::shape_faults(c.ground->shape)) {
     if (fault.about_fillet && in.has("ground.fillet"))
       in.fault("ground.fillet", fault.message);
+    else if (c.ground->road.read && fault.point >= 0)
+      in.fault("ground.road", fmt::format("{}, at x = {:.6g} m", fault.message,
+                                          c.ground->shape.profile[at(fault.point)].x));
     else
-      in.fault_at_item("ground.profile", fault.point, fault.message);
+      in.fault_at_item(ground_key(c), fault.point, fault.message);
   }
 }
 
@@ -275,10 +279,10 @@ void require(CaseValues& in, std::string_view key) {
 
 void check_flat_ground(CaseValues& in, const Case& c, std::string_view who) {
   if (!in.has_table("ground")) return in.missing("ground.profile");
-  if (!in.good({"ground", "ground.profile", "ground.fillet"})) return;
+  if (!in.good({"ground", "ground.profile", "ground.road", "ground.fillet"})) return;
   const std::vector<Vec2>& profile = c.ground->shape.profile;
   if (!std::all_of(profile.begin(), profile.end(), [&](Vec2 p) { return p.y == profile[0].y; }))
-    in.fault("ground.profile", fmt::format("{} needs flat ground: all points at one height", who),
+    in.fault(ground_key(c), fmt::format("{} needs flat ground: all points at one height", who),
              "ground.profile = \"flat\"");
 }
 

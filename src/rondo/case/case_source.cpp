@@ -195,6 +195,17 @@ void remove(CaseSource& from, const std::string& path) {
   std::erase_if(from.lists, at_or_below);
 }
 
+/// A setting of the ground's shape replaces another one, and the places on a road that go with it.
+void remove_rivals_of_ground(CaseSource& from, std::string_view path) {
+  if (path != "ground.profile" && path != "ground.road") return;
+  std::erase_if(from.values, [&](const auto& entry) {
+    const std::string_view key = entry.first;
+    const bool rival =
+        path == "ground.road" ? key == "ground.profile" : key.starts_with("ground.road");
+    return rival && entry.second.place.source == 0;
+  });
+}
+
 /// A setting of one of several exclusive keys replaces the others in the file.
 void remove_rivals(CaseSource& from, std::string_view path) {
   static const std::vector<std::string_view> step{"time.step", "time.safety"},
@@ -293,6 +304,7 @@ void apply_setting(CaseSource& into, const std::string& setting) {
   const toml::table parsed = parsed_setting(text);
   remove(into, path);
   remove_rivals(into, path);
+  remove_rivals_of_ground(into, path);
   remove_rival_of_volume(into, path);
   Place place;
   place.source = source;

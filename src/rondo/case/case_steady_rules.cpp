@@ -170,10 +170,11 @@ void check_steady_start(CaseValues& in, const Case& c) {
   check_start_motion(in, c);
   if (!in.has_table("ground"))
     in.fault(start, "there is no ground to roll on", "\"stationary\"; or a [ground]");
-  else if (in.good({"ground", "ground.profile", "ground.fillet", "disk.outer_radius"}) &&
+  else if (in.good(
+               {"ground", "ground.profile", "ground.road", "ground.fillet", "disk.outer_radius"}) &&
            c.ground && contact::shape_faults(c.ground->shape).empty() && !c.mesh &&
            !flat_ground_below(c, c.disk.outer_radius))
-    in.fault("ground.profile",
+    in.fault(ground_key(c),
              fmt::format("is not flat below the body at t = 0, from x = {:.6g} to {:.6g} m, as a "
                          "start in steady rolling requires",
                          c.motion.start_x - c.disk.outer_radius - c.ground->shape.fillet,

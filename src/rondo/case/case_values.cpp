@@ -136,6 +136,12 @@ void CaseValues::fault(std::string_view key, std::string message, std::string al
     add(value->place, key, source_.written(value->place), std::move(message), std::move(allowed));
 }
 
+void CaseValues::fault_in_file(std::string_view key, Fault fault) {
+  const CaseValue* value = find(key);
+  bad_keys_.emplace(key);
+  faults_.push_back({value ? value->place : place_of_table(key), std::move(fault)});
+}
+
 void CaseValues::fault_at_item(std::string_view key, int item, std::string message) {
   const auto found = source_.values.find(key);
   if (key == "ground.profile" && item >= 0 && !profile_lines_.empty()) {

@@ -64,6 +64,8 @@ class CaseValues {
   void refuse(std::string_view key, std::string message, std::string allowed) {
     if (good({key})) fault(key, std::move(message), std::move(allowed));
   }
+  /// Adds a fault in a file that a key names, with its own file and line, at the place of the key.
+  void fault_in_file(std::string_view key, Fault fault);
   void fault_at_item(std::string_view key, int item, std::string message);
   void missing(std::string_view key);
 

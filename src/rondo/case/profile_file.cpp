@@ -70,11 +70,10 @@ bool is_header(const std::vector<Token>& tokens) {
          });
 }
 
-constexpr const char* is_road =
-    "is an OpenCRG road file: heights over a surface, which are not read";
+constexpr const char* is_road = "is an OpenCRG road file: heights over a surface, no profile";
 constexpr const char* instead_of_road =
-    "two columns, x and y in m: one section along the road, exported as a CSV file by an OpenCRG "
-    "tool (the heights z over u at one v)";
+    "ground.road = \"NAME.crg\" in place of ground.profile under a plane body, or two columns, x "
+    "and y in m: one section along the road as a CSV file (docs/roads.md)";
 
 /// Keywords that begin the lines in the header of an OpenCRG file.
 bool is_opencrg(std::string_view text) {

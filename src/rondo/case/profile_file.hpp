@@ -21,7 +21,7 @@ struct ProfileFile {
   std::vector<Fault> faults;  ///< the first few; if there are any, `points` is empty
 };
 
-/// Road files of other tools are not read. @throws InputError for an OpenCRG file, by its name,
+/// A road file is the value of another key. @throws InputError for an OpenCRG file, by its name,
 /// because its text may be longer than the limit
 void refuse_road(const std::filesystem::path& file);
 

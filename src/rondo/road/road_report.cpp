@@ -106,6 +106,7 @@ std::string missing_text(const Road& road, double share) {
 }
 
 std::string span_text(double from, double to) {
+  if (from == to) return fmt::format("= {:.6g} m", from);
   if (!std::isfinite(from)) return fmt::format("up to {:.6g} m", to);
   if (!std::isfinite(to)) return fmt::format("from {:.6g} m on", from);
   return fmt::format("from {:.6g} to {:.6g} m", from, to);

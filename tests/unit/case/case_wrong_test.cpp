@@ -53,7 +53,9 @@ const std::vector<Wrong> wrongs{
      "frction = 0.3",
      "ground.frction",
      27,
-     {"did you mean ground.friction?", "in [ground]: profile, fillet, friction, restitution"}},
+     {"did you mean ground.friction?",
+      "in [ground]: profile, road, road_start, road_offset, road_border, fillet, friction, "
+      "restitution"}},
     {"UnknownTable",
      15,
      "[dampng]",

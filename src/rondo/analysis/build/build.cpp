@@ -9,6 +9,7 @@
 
 #include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/build/ground/held_ground.hpp"
+#include "rondo/analysis/build/ground/road_lines.hpp"
 #include "rondo/analysis/build/ground/small_ground.hpp"
 #include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
@@ -352,6 +353,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
   check_start(c, s);
   check_stability(c, s);
   tell_physical_figures(c, s);
+  tell_road(c, s);
   if (s.model.solid) tell_solid_figures(c, s);
 }
 

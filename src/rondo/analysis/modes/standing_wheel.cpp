@@ -31,7 +31,7 @@ double ground_height(const Case& c, double radius) {
                      "a [ground]; or the modes without --standing");
   const std::optional<double> flat = flat_ground_below(c, radius);
   if (!flat)
-    throw case_error(c, "ground.profile", "is not flat below the wheel at t = 0",
+    throw case_error(c, ground_key(c), "is not flat below the wheel at t = 0",
                      "another motion.start_x, or obstacles further away");
   return *flat;
 }

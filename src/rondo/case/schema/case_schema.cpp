@@ -178,6 +178,15 @@ void add_rules_of_bodies(Json& rules) {
                          Json{{"not", one_at_least}}));
 }
 
+void add_rules_of_ground(Json& rules) {
+  const Json profile = presence_of("ground.profile"), road = presence_of("ground.road");
+  rules.push_back(refuse("ground.profile beside ground.road: the ground has one shape",
+                         all_of({profile, road})));
+  rules.push_back(
+      refuse("ground.profile is missing, or ground.road in its place",
+             all_of({presence_of("ground"), Json{{"not", profile}}, Json{{"not", road}}})));
+}
+
 }  // namespace
 
 Json schema_of(const CaseKey& key) {
@@ -204,6 +213,7 @@ Json case_schema() {
   }
   Json& rules = schema["allOf"] = Json::array();
   add_rules_of_bodies(rules);
+  add_rules_of_ground(rules);
   add_rules_of_analyses(rules);
   return schema;
 }

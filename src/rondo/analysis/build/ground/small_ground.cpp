@@ -11,14 +11,14 @@ namespace {
 constexpr const char* where_they_are =
     "its force is that of a point and depends on where the nodes happen to be";
 
-std::string small_obstacle(const contact::Ground& ground) {
+std::string small_obstacle(const Case& c, const contact::Ground& ground) {
   const double spacing = ground.spacing();
   const contact::Intrusion obstacle = contact::hidden_between_nodes(ground, spacing).whole;
   if (!(obstacle.depth > contact::least_hidden * spacing)) return {};
   return fmt::format(
-      "ground.profile: the obstacle {:.3g} m high at ({:.6g}, {:.6g}) m is shorter than the {:.3g} "
+      "{}: the obstacle {:.3g} m high at ({:.6g}, {:.6g}) m is shorter than the {:.3g} "
       "m between two contact nodes: {}; give an obstacle several times as long, or a finer mesh",
-      obstacle.depth, obstacle.at.x, obstacle.at.y, spacing, where_they_are);
+      ground_key(c), obstacle.depth, obstacle.at.x, obstacle.at.y, spacing, where_they_are);
 }
 
 std::string small_fillet(const contact::Ground& ground, double fillet) {
@@ -37,7 +37,7 @@ std::string small_fillet(const contact::Ground& ground, double fillet) {
 std::string small_ground(const Case& c, const Setup& s) {
   if (!s.model.contact || !(s.model.contact->ground.spacing() > 0.0)) return {};
   const contact::Ground& ground = s.model.contact->ground;
-  std::string told = small_obstacle(ground);
+  std::string told = small_obstacle(c, ground);
   return told.empty() ? small_fillet(ground, c.ground->shape.fillet) : told;
 }
 
