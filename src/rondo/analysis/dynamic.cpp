@@ -302,6 +302,7 @@ void DynamicAnalysis::close() {
   balance_ = beyond.balance;
   judge(beyond);
   warn_of_no_contact();
+  warn_of_left_corners();
   if (state_.step == steps_ && !is_looked_at()) look();
 }
 

@@ -79,6 +79,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   void look();
   [[nodiscard]] std::string look_at_rim(const dynamics::StepReport& step);
   void warn_of_no_contact();
+  void warn_of_left_corners();
   void warn_of_impacts(const dynamics::StepReport& step);
   void record_state(Recorder& recorder);
   void record_snapshot(Recorder& recorder);

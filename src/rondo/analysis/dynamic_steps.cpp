@@ -51,6 +51,18 @@ void DynamicAnalysis::warn_of_no_contact() {
                 : "initial.position, initial.velocity and motion.gravity do not lead there"));
 }
 
+void DynamicAnalysis::warn_of_left_corners() {
+  const auto& c = contact_;
+  if (!setup_.model.solid || c.clusters_not_converged == 0) return;
+  warn(
+      fmt::format("{} times a corner of the ground was left out of a step, of {} groups of "
+                  "contacts in all: with "
+                  "the contacts beside it, it was beyond the solver. The forces of these steps are "
+                  "a little too "
+                  "small; a finer mesh, or fewer corners within an element, makes this rarer",
+                  c.clusters_not_converged, c.clusters));
+}
+
 void DynamicAnalysis::pause_at(long long step) {
   pause_ = step;
   since_pause_.emplace(case_, setup_, never_due());

@@ -19,10 +19,11 @@ void check_stepped_wheel(CaseValues& in, const Case& c, std::string_view step) {
     in.fault(step, "is of wheels in three dimensions, and this body is plane",
              "a disk.width; or a dynamic analysis with tables in [motion]");
   if (c.analysis.slip != RollingSlip::upwind)
-    in.fault(
-        "analysis.slip",
-        fmt::format("a wheel that rolls on after {} needs the places of one sample before", step),
-        "\"upwind\"");
+    in.fault("analysis.slip",
+             fmt::format("a wheel that rolls on after {} counts its ways from one sample before, "
+                         "by one formula alone",
+                         step),
+             "\"upwind\"");
   if (c.inflation && c.inflation->nonlinear != TyreMotion::linear)
     in.fault("inflation.nonlinear",
              fmt::format("a wheel that rolls on after {} has linear forces", step),

@@ -307,11 +307,20 @@ std::string body_text(const Case& c) {
   return write_case(body);
 }
 
+namespace {
+
+/// Tables end with a line that is empty.
+std::string_view line_text(const std::string& line) noexcept {
+  return line.empty() ? "no such setting" : std::string_view(line);
+}
+
+}  // namespace
+
 std::string body_difference(const std::string& of_case, const std::string& of_other) {
   if (of_case == of_other) return {};
   const std::vector<std::string> a = lines_of(of_case), b = lines_of(of_other);
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
-    if (a[i] != b[i]) return fmt::format("{} against {}", a[i], b[i]);
+    if (a[i] != b[i]) return fmt::format("{} against {}", line_text(a[i]), line_text(b[i]));
   return "one has settings that the other has not";
 }
 

@@ -9,7 +9,8 @@ namespace rondo::study {
 namespace {
 
 constexpr const char* where_they_are =
-    "its force is that of a point and depends on where the nodes happen to be";
+    "its force is that of a point and depends on where the nodes happen to be, which runs with "
+    "motion.start_x moved by parts of the spacing show";
 
 std::string small_obstacle(const Case& c, const contact::Ground& ground) {
   const double spacing = ground.spacing();
