@@ -772,11 +772,14 @@ constexpr CaseKey keys[] = {
      optional.of(in_time).body(never),
      "Largest number of iterations for contacts that are solved together (sharp corners of the "
      "ground, bodies on each other). Contacts that do not meet the law by then are counted in "
-     "`run.json`, and their residual ends the run"},
+     "`run.json`, and their residual ends the run. Wheels in three dimensions take no more than "
+     "400, "
+     "and then fewer contacts ([wheel3d.md](wheel3d.md#corners-of-the-ground))"},
     {"solver.dump_contacts", "-", FIELD(dump_contacts), between(0, 1000000000),
      optional.of(in_time).body(never),
-     "Number of iterations above which contacts that are solved together are kept as files in "
-     "`contact-problems/` of the results directory; 0: none"},
+     "Number of iterations above which contacts of plane bodies that are solved together are kept "
+     "as "
+     "files in `contact-problems/` of the results directory; 0: none"},
 
     {"solver.implicit[].slower_than", "s", FIELD(implicit[k].slower_than), positive,
      optional.said("none"),

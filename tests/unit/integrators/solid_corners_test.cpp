@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -133,22 +134,47 @@ TEST(SolidCorners, PushesOfALineHaveNoMomentAboutIt) {
   }
 }
 
-TEST(SolidCorners, ACornerAtANodeOnTheGroundIsLeftToIt) {
+TEST(SolidCorners, TheNearerNodeInPlaceOfAnEdgeIsPushedAlongItsNormal) {
   const mesh::Mesh mesh = mesh::make_wheel(test::box_wheel(3, 4, 90));
-  // The nodes at x = 0 are on the post, beside its left edge.
-  const Model on = over_a_post(mesh, -0.0003, 0.003);
-  CornerFinder finder(on);
-  const std::vector<CornerRow> rows = rows_at(on, finder, 0.297);
+  const Model m = over_a_post(mesh, 0.004, 0.003);
+  CornerFinder finder(m);
+  int corners = 0;
+  for (const CornerRow& row : rows_at(m, finder, 0.297)) {
+    if (row.kind == ContactKind::facet) continue;
+    ++corners;
+    const CornerRow at_node = finder.at_nearer_node(row);
+    EXPECT_EQ(at_node.node[0], row.node[row.weight[1] > 0.5 ? 1 : 0]);
+    EXPECT_EQ(at_node.count, 1);
+    EXPECT_EQ(at_node.key, row.key);
+    EXPECT_EQ(norm(at_node.normal + row.normal), 0.0);
+    const Vec3 push = contact::transposed(at_node.block[0], {2.0, 0.7, -0.4});
+    const Vec3 expected(from_frame(at_node.normal, {2.0, 0.7}), -0.4);
+    EXPECT_NEAR(norm(GroundFrame(camber).from_wheel(push) - expected), 0.0, 1e-15);
+  }
+  EXPECT_GT(corners, 3);
+}
+
+/// A comb of posts 1 mm apart under each edge: their first and last say what those between do.
+TEST(SolidCorners, OfManyCornersOnAnEdgeTheOuterOnesHoldIt) {
+  const mesh::Mesh mesh = mesh::make_wheel(test::box_wheel(3, 4, 90));
+  Model m = over_a_post(mesh, 0.0, 0.001);
+  contact::GroundShape comb;
+  comb.profile = {{-9, 0}};
+  for (int i = -60; i < 60; ++i) {
+    comb.profile.push_back({0.001 * i, 0.0});
+    comb.profile.push_back({0.001 * i + 0.0005, 0.0005});
+  }
+  comb.profile.push_back({0.06, 0.0});
+  comb.profile.push_back({9, 0});
+  m.contact->ground = contact::Ground(comb, m.contact->ground.spacing());
+  CornerFinder finder(m);
+  const std::vector<CornerRow> rows = rows_at(m, finder, 0.298);
+  std::map<std::array<int, 2>, int> of_edge;
   for (const CornerRow& row : rows)
-    if (row.kind == ContactKind::corner) {
-      EXPECT_GT(std::min(row.weight[0], row.weight[1]), 0.03);
-    }
-  EXPECT_GE(finder.left_to_nodes().size(), 3U);
-  EXPECT_GE(count(rows, ContactKind::corner), 3);  // of the other edge of the post
-  const Model beside = over_a_post(mesh, 0.004, 0.003);
-  CornerFinder other(beside);
-  EXPECT_GE(count(rows_at(beside, other, 0.297), ContactKind::corner), 6);
-  EXPECT_TRUE(other.left_to_nodes().empty());
+    if (row.kind == ContactKind::corner) ++of_edge[row.node];
+  EXPECT_GT(of_edge.size(), 4U);
+  for (const auto& [edge, n] : of_edge) EXPECT_LE(n, 2);
+  EXPECT_GT(finder.left_to_others().size(), 4U * of_edge.size());
 }
 
 }  // namespace solid_corners_test

@@ -29,6 +29,10 @@ Vec3 velocity_at(const SpatialCoupled& p, std::size_t j, std::span<const Vec3> i
   return w;
 }
 
+constexpr int few_sweeps = 20, many_sweeps = 400;
+/// Larger problems are left to sweeps: least squares cost the cube of the contacts.
+constexpr std::size_t most_in_squares = 12;
+
 /// Contacts that may press, a bit each.
 using Subset = std::uint32_t;
 constexpr Subset all_contacts = ~Subset{0};
@@ -159,8 +163,7 @@ class Solution {
            result_.iterations >= limits_.most_iterations;
   }
 
-  void sweeps(Subset subset = all_contacts) {
-    constexpr int most = 20;
+  void sweeps(int most, Subset subset = all_contacts) {
     subset_ = subset;
     Mixer mixer(p_.size(), work_);
     for (int i = 0; i < most && !exact(); ++i) {
@@ -186,7 +189,7 @@ class Solution {
       for (Subset subset = 1; subset < (Subset{1} << n) && !finished(); ++subset) {
         if (std::popcount(subset) != count) continue;
         std::ranges::fill(work_.from, Vec3{});
-        sweeps(subset);
+        sweeps(few_sweeps, subset);
       }
     subset_ = all_contacts;
     squares();
@@ -256,7 +259,11 @@ CoupledResult solve_coupled(const SpatialCoupled& p, const CoupledLimits& limits
   RONDO_DEMAND(p.blocks.size() == n * n && impulse.size() == n && status.size() == n,
                p.blocks.size(), impulse.size(), status.size(), n);
   Solution solution(p, limits, impulse, status, work);
-  solution.sweeps();
+  if (n > most_in_squares) {
+    solution.sweeps(many_sweeps);
+    return solution.result();
+  }
+  solution.sweeps(few_sweeps);
   if (!solution.exact()) solution.squares();
   if (!solution.finished()) solution.subsets();
   for (const double pressed : {0.0, 1.0})

@@ -2,7 +2,7 @@
 /// @file  Contacts in space that share nodes: one problem for all of them, and its solver
 /// (docs/wheel3d.md, docs/theory.md, 4.7). What coupled.hpp is in the plane, with two tangential
 /// directions. Block Gauss–Seidel: Jourdan, Alart, Jean, CMAME 155 (1998) 31, accelerated as by
-/// D. G. Anderson, J. ACM 12 (1965) 547; least squares where that is slow (spatial_newton.hpp).
+/// D. G. Anderson, J. ACM 12 (1965) 547; least squares where that is slow (spatial_squares.hpp).
 #pragma once
 #include <array>
 #include <span>

@@ -2,6 +2,8 @@
 #include "rondo/integrators/solid/corner_finder.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <tuple>
 
 #include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/coupled/node_to_segment.hpp"
@@ -98,20 +100,72 @@ void CornerFinder::find(std::span<const Near> near, std::vector<CornerRow>& rows
       of_corner_.push_back(of->edge);
     find_corner(corner, of_corner_, at_corners_);
   }
+  leave_out_middle();
   touched_.clear();
   for (const CornerRow& row : at_corners_)
-    touched_.insert(touched_.end(), row.node.begin(), row.node.end());
+    touched_.insert(touched_.end(), row.node.begin(), row.node.begin() + row.count);
   std::ranges::sort(touched_);
   touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
   for (const int node : touched_) find_on_ground(node, rows);
   rows.insert(rows.end(), at_corners_.begin(), at_corners_.end());
 }
 
-/// The corner is at a node of its edge that is on the ground: both would hold nearly the same, by
-/// different normals. @param away from the node, over the edge's length
-bool CornerFinder::is_held_by_node(int node, double away) const noexcept {
-  constexpr double nearest = 0.03;
-  return away < nearest && model_.contact->ground.touches(places_[at(node)]).count > 0;
+/// A node that the ground pushes along a normal.
+CornerRow CornerFinder::on_node(int node, Vec2 normal) const noexcept {
+  const Vec2 tangent = turn90(normal);
+  CornerRow row;
+  row.kind = ContactKind::facet;
+  row.count = 1;
+  row.node = {node, -1};
+  row.weight = {1.0, 0.0};
+  row.block[0] = in_space(ground_, {normal.x, normal.y, tangent.x, tangent.y}, 1.0);
+  row.normal = normal;
+  return row;
+}
+
+/// Velocities along the normal of an edge are linear along it: where they are not into the edge at
+/// its first and last corner, they are at none between, so that those are left out.
+void CornerFinder::leave_out_middle() {
+  std::ranges::sort(at_corners_, {}, [](const CornerRow& row) {
+    return std::tuple(row.node, row.weight[1], row.key);
+  });
+  std::array<int, 2> last{-1, -1};
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < at_corners_.size(); ++i) {
+    const CornerRow row = at_corners_[i];
+    const bool is_between = row.count == 2 && row.node == last && i + 1 < at_corners_.size() &&
+                            at_corners_[i + 1].node == row.node;
+    last = row.node;
+    if (is_between)
+      left_.push_back(row.key);
+    else
+      at_corners_[kept++] = row;
+  }
+  at_corners_.resize(kept);
+}
+
+/// A corner on an edge.
+CornerRow CornerFinder::at_nearer_node(const CornerRow& row) const noexcept {
+  CornerRow out = on_node(row.node[row.weight[0] < row.weight[1] ? 1 : 0], -row.normal);
+  out.point = row.point;
+  out.key = row.key;
+  out.gap = row.gap;
+  return out;
+}
+
+CornerRow CornerFinder::on_edge(const contact::EdgeTouch& found) const noexcept {
+  const auto [a, b] = edges_.boundary.edges[at(found.edge)];
+  const double at_b = found.touch.at;
+  const contact::SegmentRows plane =
+      contact::segment_rows(found.touch, norm(places_[at(b)] - places_[at(a)]));
+  CornerRow row;
+  row.kind = ContactKind::corner;
+  row.count = 2;
+  row.node = {a, b};
+  row.weight = {1.0 - at_b, at_b};
+  row.block = {in_space(ground_, plane.a, at_b - 1.0), in_space(ground_, plane.b, -at_b)};
+  row.normal = found.touch.normal;
+  return row;
 }
 
 /// @param edges of one row
@@ -125,24 +179,9 @@ void CornerFinder::find_corner(std::size_t c, std::span<const int> edges,
     const contact::EdgeTouch& found = touches.at[at(t)];
     if (-found.touch.gap > edges_.deepest[at(found.edge)] || dot(found.touch.normal, facing) >= 0.0)
       continue;
-    const auto [a, b] = edges_.boundary.edges[at(found.edge)];
-    const contact::SegmentRows plane =
-        contact::segment_rows(found.touch, norm(places_[at(b)] - places_[at(a)]));
-    const double at_b = found.touch.at;
-    const std::uint64_t key = key_of_corner(c, found.edge);
-    if (is_held_by_node(at_b < 0.5 ? a : b, std::min(at_b, 1.0 - at_b))) {
-      left_.push_back(key);
-      continue;
-    }
-    CornerRow row;
-    row.kind = ContactKind::corner;
-    row.count = 2;
-    row.node = {a, b};
-    row.weight = {1.0 - at_b, at_b};
-    row.block = {in_space(ground_, plane.a, at_b - 1.0), in_space(ground_, plane.b, -at_b)};
+    CornerRow row = on_edge(found);
     row.point = contact::first_met(corner, -found.touch.normal);
-    row.key = key;
-    row.normal = found.touch.normal;
+    row.key = key_of_corner(c, found.edge);
     row.gap = found.touch.gap;
     rows.push_back(row);
   }
@@ -154,16 +193,9 @@ void CornerFinder::find_on_ground(int node, std::vector<CornerRow>& rows) const 
   const contact::Touches touches = contact.ground.touches(places_[at(node)]);
   for (int t = 0; t < touches.count; ++t) {
     const contact::Touch& touch = touches.at[at(t)];
-    const Vec2 tangent = turn90(touch.normal);
-    CornerRow row;
-    row.kind = ContactKind::facet;
-    row.count = 1;
-    row.node = {node, -1};
-    row.weight = {1.0, 0.0};
-    row.block[0] = in_space(ground_, {touch.normal.x, touch.normal.y, tangent.x, tangent.y}, 1.0);
+    CornerRow row = on_node(node, touch.normal);
     row.point = places_[at(node)];
     row.key = 2 * candidate + at(t);
-    row.normal = touch.normal;
     row.gap = touch.gap;
     row.tributary = contact.tributary[candidate];
     rows.push_back(row);

@@ -14,8 +14,8 @@
 
 namespace rondo::dynamics {
 
-/// Edges around the wheel, those of a row one after the other. A row are edges that follow each
-/// other: a ring, or a piece of one where the tread has gaps.
+/// Edges around the wheel, those of a row one after the other. A row is a sequence of edges that
+/// follow each other: a ring, or a piece of one where the tread has gaps.
 struct EdgeRows {
   contact::Boundary boundary;   ///< `body` is the number of the row
   std::vector<double> deepest;  ///< (edges) how deep a corner may be behind each: half the shortest
@@ -50,12 +50,18 @@ class CornerFinder {
   /// @param near ascending; its edges and those beside them have places
   /// @param rows replaced; its memory is kept
   void find(std::span<const Near> near, std::vector<CornerRow>& rows);
-  /// Names of contacts of the last find() that were left to a node on the ground.
-  [[nodiscard]] std::span<const std::uint64_t> left_to_nodes() const noexcept { return left_; }
+  /// What a corner on an edge is to the nearer node of it, if that is held in its place: a facet
+  /// along the edge.
+  [[nodiscard]] CornerRow at_nearer_node(const CornerRow& row) const noexcept;
+  /// Names of contacts of the last find() that corners on either side of them on the same edge
+  /// hold.
+  [[nodiscard]] std::span<const std::uint64_t> left_to_others() const noexcept { return left_; }
 
  private:
   void find_corner(std::size_t corner, std::span<const int> edges, std::vector<CornerRow>& rows);
-  [[nodiscard]] bool is_held_by_node(int node, double away) const noexcept;
+  void leave_out_middle();
+  [[nodiscard]] CornerRow on_edge(const contact::EdgeTouch& found) const noexcept;
+  [[nodiscard]] CornerRow on_node(int node, Vec2 normal) const noexcept;
   void find_on_ground(int node, std::vector<CornerRow>& rows) const;
 
   const Model& model_;

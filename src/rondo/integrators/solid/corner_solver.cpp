@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "rondo/contact/cone.hpp"
+#include "rondo/contact/cone_pair.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/core/keep_larger.hpp"
@@ -18,6 +18,10 @@ using contact::KeptImpulses;
 using contact::Status;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+bool is_key_of_corner(std::uint64_t key) noexcept {
+  return key >> 62U == static_cast<std::uint64_t>(ContactKind::corner);
+}
+
 /// Marks the key of the part of an impulse along t2.
 constexpr std::uint64_t along_line = 1ULL << 61U;
 
@@ -26,7 +30,7 @@ Vec3 impulse_before(const KeptImpulses& before, std::uint64_t key) noexcept {
 }
 
 /// Sweeps and steps of least squares after which a problem counts as beyond the solver.
-constexpr int most_iterations = 2000;
+constexpr int most_iterations = 400;
 
 /// Σ H_i value(node i).
 template <class Value>
@@ -80,8 +84,7 @@ Vec3 CornerSolver::arm_of(const State& state, std::size_t node) const noexcept {
 void CornerSolver::solve(const SolidContactStep& step, const KeptImpulses& before, State& state,
                          ContactReport& report) {
   if (rows_.empty()) return;
-  set_velocities(step, state);
-  set_laws(step, before, state);
+  for (CornerRow& row : rows_) set_row(step, before, state, row);
   look_for_late(step, before, state.frame.time, report);
   node_start_.assign(1, 0);
   nodes_.clear();
@@ -94,39 +97,34 @@ void CornerSolver::solve(const SolidContactStep& step, const KeptImpulses& befor
     solve_together(step, before, clusters[k], state, report);
 }
 
-/// w⁻ and w without impulses.
-void CornerSolver::set_velocities(const SolidContactStep& step, const State& state) {
-  for (CornerRow& row : rows_) {
-    row.before = sum_over_nodes(row, [&](std::size_t k) {
-      return velocity_before(step, arm_of(state, k), state.v.space()[k]);
-    });
-    row.free = sum_over_nodes(row, [&](std::size_t k) {
-      return drive_of(step, arm_of(state, k)) + step.plane.rotation_next * state.v_next.space()[k];
-    });
-    row.impulse = {};
-    row.status = Status::open;
-  }
+/// w⁻, w without impulses, and the law.
+void CornerSolver::set_row(const SolidContactStep& step, const KeptImpulses& before,
+                           const State& state, CornerRow& row) const {
+  const contact::Law& law = *step.plane.law;
+  row.before = sum_over_nodes(row, [&](std::size_t k) {
+    return velocity_before(step, arm_of(state, k), state.v.space()[k]);
+  });
+  row.free = sum_over_nodes(row, [&](std::size_t k) {
+    return drive_of(step, arm_of(state, k)) + step.plane.rotation_next * state.v_next.space()[k];
+  });
+  row.impulse = {};
+  row.status = Status::open;
+  row.turning = row.kind == ContactKind::corner ? turning_of(step, row, state) : 0.0;
+  row.bounce = contact::restitution_shift(law, row.before.x, row.before.x - row.turning);
+  row.friction =
+      law.friction.is_constant() ? law.friction.constant() : friction_of(step, before, state, row);
 }
 
-void CornerSolver::set_laws(const SolidContactStep& step, const KeptImpulses& before,
-                            const State& state) {
-  const contact::Law& law = *step.plane.law;
-  for (CornerRow& row : rows_) {
-    row.turning = row.kind == ContactKind::corner ? turning_of(step, row, state) : 0.0;
-    row.bounce = contact::restitution_shift(law, row.before.x, row.before.x - row.turning);
-    if (law.friction.is_constant()) {
-      row.friction = law.friction.constant();
-      continue;
-    }
-    Vec3 place;
-    for (int i = 0; i < row.count; ++i)
-      place += row.weight[at(i)] * place_in_space(step, arm_of(state, at(row.node[at(i)])));
-    const double pressure =  // a line has none
-        row.tributary > 0.0 ? contact::kept_impulse(before, row.key).x / (model_.dt * row.tributary)
-                            : 0.0;
-    row.friction =
-        law.friction.coefficient({place, std::hypot(row.before.y, row.before.z), pressure});
-  }
+double CornerSolver::friction_of(const SolidContactStep& step, const KeptImpulses& before,
+                                 const State& state, const CornerRow& row) const {
+  Vec3 place;
+  for (int i = 0; i < row.count; ++i)
+    place += row.weight[at(i)] * place_in_space(step, arm_of(state, at(row.node[at(i)])));
+  const double pressure =  // a line has none
+      row.tributary > 0.0 ? contact::kept_impulse(before, row.key).x / (model_.dt * row.tributary)
+                          : 0.0;
+  return step.plane.law->friction.coefficient(
+      {place, std::hypot(row.before.y, row.before.z), pressure});
 }
 
 /// (4.8c): what one more step like the last would do to the gap, over Δt, less w_n⁻.
@@ -190,31 +188,60 @@ void CornerSolver::make_problem(const SolidContactStep& step, Rows rows) {
   }
 }
 
-/// Contacts that hold the same by many normals may be beyond the solver. Then the corner that is
-/// the least deep is left out of this step, and so on: what is left obeys the law.
+/// Two contacts of one node, as the two facets of a node that nothing else holds.
+bool CornerSolver::solve_pair() {
+  if (asked_.size() != 2) return false;
+  const CornerRow &a = rows_[at(asked_[0])], &b = rows_[at(asked_[1])];
+  if (a.count + b.count != 2 || a.node[0] != b.node[0] || a.friction != b.friction) return false;
+  const auto pair = contact::solve_spatial_pair(
+      {a.free, problem_.block(0, 0), {a.bounce, b.bounce}, rotation_between(a.normal, b.normal)},
+      a.friction);
+  if (!pair.converged) return false;
+  impulse_ = {pair.contact[0].impulse, pair.contact[1].impulse};
+  status_ = {pair.contact[0].status, pair.contact[1].status};
+  return true;
+}
+
+/// Contacts that hold nearly the same by several normals may be beyond the solver. Then the nearer
+/// node of each edge is held in place of the edge; and if that is not solved either, the corners
+/// that are the least deep, a quarter of all, are left out of this step, and so on.
 contact::CoupledResult CornerSolver::solve_problem(const SolidContactStep& step,
                                                    const KeptImpulses& before, Rows rows,
-                                                   ContactReport& report) {
+                                                   const State& state, ContactReport& report) {
   asked_.assign(rows.begin(), rows.end());
-  const auto is_corner = [&](int j) { return rows_[at(j)].kind == ContactKind::corner; };
-  for (;;) {
-    make_problem(step, asked_);
-    impulse_.clear();
-    for (const int j : asked_) impulse_.push_back(impulse_before(before, rows_[at(j)].key));
-    status_.assign(asked_.size(), Status::open);
-    const contact::CoupledResult result =
-        contact::solve_coupled(problem_, limits_, impulse_, status_, work_);
+  contact::CoupledResult result = try_to_solve(step, before);
+  if (result.converged) return result;
+  for (const int j : asked_)
+    if (rows_[at(j)].kind == ContactKind::corner) {
+      rows_[at(j)] = finder_.at_nearer_node(rows_[at(j)]);
+      set_row(step, before, state, rows_[at(j)]);
+    }
+  result = try_to_solve(step, before);
+  const auto is_corner = [&](int j) { return is_key_of_corner(rows_[at(j)].key); };
+  while (!result.converged && std::ranges::any_of(asked_, is_corner)) {
     const auto depth = [&](int j) { return is_corner(j) ? -rows_[at(j)].gap : infinity; };
-    const auto least = std::ranges::min_element(asked_, {}, depth);
-    if (result.converged || !is_corner(*least)) return result;
-    ++report.clusters_not_converged;
-    asked_.erase(least);
+    for (auto left = (std::ranges::count_if(asked_, is_corner) + 3) / 4; left > 0; --left) {
+      asked_.erase(std::ranges::min_element(asked_, {}, depth));
+      ++report.clusters_not_converged;
+    }
+    result = try_to_solve(step, before);
   }
+  return result;
+}
+
+contact::CoupledResult CornerSolver::try_to_solve(const SolidContactStep& step,
+                                                  const KeptImpulses& before) {
+  make_problem(step, asked_);
+  if (solve_pair()) return {.iterations = 1, .residual = 0.0, .converged = true};
+  impulse_.clear();
+  for (const int j : asked_) impulse_.push_back(impulse_before(before, rows_[at(j)].key));
+  status_.assign(asked_.size(), Status::open);
+  return contact::solve_coupled(problem_, limits_, impulse_, status_, work_);
 }
 
 void CornerSolver::solve_together(const SolidContactStep& step, const KeptImpulses& before,
                                   Rows rows, State& state, ContactReport& report) {
-  const contact::CoupledResult result = solve_problem(step, before, rows, report);
+  const contact::CoupledResult result = solve_problem(step, before, rows, state, report);
   for (std::size_t j = 0; j < asked_.size(); ++j) {
     rows_[at(asked_[j])].impulse = impulse_[j];
     rows_[at(asked_[j])].status = status_[j];
@@ -313,7 +340,7 @@ void CornerSolver::add_impulses_to(KeptImpulses& kept) const {
     kept.emplace_back(row.key, row.impulse.plane());
     kept.emplace_back(row.key | along_line, Vec2{row.impulse.z, 0.0});
   }
-  for (const std::uint64_t key : finder_.left_to_nodes()) kept.emplace_back(key, Vec2{});
+  for (const std::uint64_t key : finder_.left_to_others()) kept.emplace_back(key, Vec2{});
 }
 
 }  // namespace rondo::dynamics

@@ -29,14 +29,16 @@ class CornerSolver {
   void solve(const SolidContactStep& step, const contact::KeptImpulses& before, State& state,
              ContactReport& report);
   /// Adds the impulses of the last step by the keys of their contacts: along n and J n, and by a
-  /// marked key along t2; 0 of those that were left to a node                        [N·s]
+  /// marked key along t2; 0 of those that others hold                        [N·s]
   void add_impulses_to(contact::KeptImpulses& kept) const;
 
  private:
   using Rows = std::span<const int>;  ///< of one cluster
-  void set_velocities(const SolidContactStep& step, const State& state);
-  void set_laws(const SolidContactStep& step, const contact::KeptImpulses& before,
-                const State& state);
+  void set_row(const SolidContactStep& step, const contact::KeptImpulses& before,
+               const State& state, CornerRow& row) const;
+  [[nodiscard]] double friction_of(const SolidContactStep& step,
+                                   const contact::KeptImpulses& before, const State& state,
+                                   const CornerRow& row) const;
   [[nodiscard]] double turning_of(const SolidContactStep& step, const CornerRow& row,
                                   const State& state) const;
   [[nodiscard]] Vec3 arm_of(const State& state, std::size_t node) const noexcept;
@@ -45,7 +47,10 @@ class CornerSolver {
   [[nodiscard]] bool came_round_an_end(const CornerRow& row) const noexcept;
   contact::CoupledResult solve_problem(const SolidContactStep& step,
                                        const contact::KeptImpulses& before, Rows rows,
-                                       ContactReport& report);
+                                       const State& state, ContactReport& report);
+  contact::CoupledResult try_to_solve(const SolidContactStep& step,
+                                      const contact::KeptImpulses& before);
+  [[nodiscard]] bool solve_pair();
   void solve_together(const SolidContactStep& step, const contact::KeptImpulses& before, Rows rows,
                       State& state, ContactReport& report);
   void make_problem(const SolidContactStep& step, Rows rows);
