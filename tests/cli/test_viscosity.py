@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Viscous materials at small strain: the viscoelastic cylinders of Wang and Knothe, steps in time beside steady
 rolling, wheels and tyres, and what is refused."""
+import re
 import shutil
 import unittest
 
@@ -297,9 +298,11 @@ history_interval = 1e-4
         case = self.case(SMALL)
         regions = ("--set", "material.region=[{layers = [3], loss_factor = 0.3}]")
         none = ("--set", "material.region=[{layers = [3], loss_factor = 0}]")
+        second = ("--set", "material.region=[{layers = [1], youngs_modulus = 1e7}, {layers = [3], loss_factor = 0.3}]")
         stiffened = ("--set", "material.stress_stiffening=centrifugal")
         for words, key, what in (((*LOSS, *regions), "material.region[0]", "one spectrum"),
                                  ((*LOSS, *none), "material.region[0]", "regions differ"),
+                                 ((*LOSS, *second), "material.region[1]", "regions differ"),
                                  ((*LOSS, *stiffened), "material.stress_stiffening", "of the stress does not")):
             done = run("check", case, "--reduced", *words)
             self.assertEqual(done.returncode, 2, (words, done.stdout))
@@ -311,6 +314,45 @@ history_interval = 1e-4
         done = run("check", case, "--reduced", *LOSS, "--set", "material.region=[{layers = [3], youngs_modulus = 1e7}]")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertRegex(done.stdout, r"creep +0\.4\d+ of the compliance in .* of the shortest branch")
+
+    def test_a_reduced_wheel_takes_branches_that_its_mesh_does_not_resolve(self):
+        """They are relaxed in it: without them the forces are the same."""
+        case = self.case(SMALL)
+        self.assertEqual(run("check", case, *branch(1e-7, 0.3)).returncode, 2)
+        done = run("check", case, "--reduced", *branch(1e-7, 0.3))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("material.viscosity", done.stderr)
+        found = []
+        for words in ((), branch(1e-7, 0.3)):
+            done = run("run", case, "--reduced", "-o", self.out, "--overwrite", "--quiet", *words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            found.append(history(self.out))
+            self.assertLess(summary(self.out)["energy_residual_relative"], 1e-12)
+        without, fast = found
+        load = np.abs(without["force_y"]).max()
+        for name in ("force_x", "force_y"):
+            self.assertLess(np.abs(fast[name] - without[name]).max() / load, 1e-3, name)
+        self.assertGreaterEqual(np.diff(fast["dissipation_viscous"]).min(), 0.0)
+        self.assertLess(fast["dissipation_viscous"][-1], 1e-3 * abs(fast["work_rim"][-1]))
+        file = self.folder / "wheel.h5"
+        self.assertEqual(run("reduce", case, "-o", file, *branch(1e-7, 0.3)).returncode, 0)
+
+    def test_the_frequency_that_a_refusal_allows_is_accepted(self):
+        """Though the step grows as the band becomes narrower. With damping and without, refused and warned of."""
+        case = self.case(SMALL)
+        for damping in ("1e-5", "0"):
+            def told(highest):
+                return run("check", case, *LOSS[:2], "--set", f"material.loss_band=[5, {highest}]", "--set",
+                           f"damping.stiffness={damping}")  # noqa: B023
+            refused = told(50000)
+            self.assertEqual(refused.returncode, 2, refused.stdout)
+            most, resolved = re.search(r"at most about (\S+) Hz, below (\S+) Hz", refused.stderr).groups()
+            warned = told(most)
+            self.assertEqual(warned.returncode, 0, warned.stderr)
+            self.assertEqual(warned.stderr.count("its losses are rough"), 1, warned.stderr)
+            self.assertEqual(told(1.3 * float(most)).returncode, 2)
+            quiet = told(resolved)
+            self.assertEqual((quiet.returncode, "material.loss_band" in quiet.stderr), (0, False), quiet.stderr)
 
     def test_what_is_refused(self):
         small = replaced(CYLINDER, "circumferential", "circumferential = 60")

@@ -118,7 +118,7 @@ MEMBERS: dict[str, tuple[str, str, str]] = {
     "contact.pairs_solved": ("", "", "Contacts of a node with two facets that were solved"),
     "contact.pairs_not_converged": ("", "", "Contacts of a node with two facets that did not converge"),
     "contact.clusters_solved": ("", "", "Groups of contacts that share nodes and were solved together"),
-    "contact.clusters_not_converged": ("", "", "Groups of contacts that did not converge"),
+    "contact.clusters_not_converged": ("", "", "Groups of contacts that did not converge; a residual of the law above its bound then ends the run. For wheels in three dimensions also corners of the ground that were not solved with the contacts beside them: they are left out of that step, and the run warns"),
     "contact.cluster_largest": ("", "", "Contacts in the largest group"),
     "contact.cluster_iterations_max": ("", "", "Iterations of the hardest group"),
     "contact.extensions": ("", "", "Times that further contact nodes without mass joined while a step was solved"),

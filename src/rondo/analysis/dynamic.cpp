@@ -40,10 +40,16 @@ std::size_t steps_at_once(const Setup& setup) {
   return static_cast<std::size_t>(std::clamp(dof_steps / dofs, fewest, 64.0));
 }
 
+Steps steps_of(const RunOptions& options) {
+  return options.reduced.empty() ? Steps::of_full_run : Steps::of_reduced_wheel;
+}
+
 }  // namespace
 
 DynamicAnalysis::DynamicAnalysis(const Case& c, const RunOptions& options)
-    : case_(c), options_(options), setup_(build(c, options.threads, options.shared)) {
+    : case_(c),
+      options_(options),
+      setup_(build(c, options.threads, options.shared, steps_of(options))) {
   plan_snapshots();
   fastest_ = c.motion.angular_velocity.largest();
 }

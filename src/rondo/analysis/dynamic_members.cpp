@@ -124,7 +124,11 @@ constexpr JsonMember<E> contact_members[] = {
     {"clusters_solved", "integer", "",
      "Groups of contacts that share nodes and were solved together",
      [](const E& e) -> Json { return e.contact.clusters; }},
-    {"clusters_not_converged", "integer", "", "Groups of contacts that did not converge",
+    {"clusters_not_converged", "integer", "",
+     "Groups of contacts that did not converge; a residual of the law above its bound then ends "
+     "the "
+     "run. For wheels in three dimensions also corners of the ground that were not solved with the "
+     "contacts beside them: they are left out of that step, and the run warns",
      [](const E& e) -> Json { return e.contact.clusters_not_converged; }},
     {"cluster_largest", "integer", "", "Contacts in the largest group",
      [](const E& e) -> Json { return e.contact.cluster_largest; }},

@@ -131,7 +131,7 @@ void Wheel::begin(Values& values) {
   auto body = std::make_unique<Body>();
   Body& b = *body;
   b.c = case_of(case_, values);
-  b.setup = study::build(b.c, 1);
+  b.setup = study::build(b.c, 1, nullptr, study::Steps::of_reduced_wheel);
   study::prepare_wheel(b.c, options_, led_spin(case_), b.setup, b.wheel);
   b.largest_step = values.step > 0.0 ? values.step : b.setup.model.dt;
   b.start =

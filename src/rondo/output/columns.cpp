@@ -29,7 +29,10 @@ constexpr std::array history{
         "torque", "N·m/m",
         "of the ground on the body about the center, > 0 counter-clockwise, mean over the interval",
         [](const H& r) { return r.torque; }},
-    Column<H>{"contact_nodes", "1", "of the nodes that may touch, those with a normal force",
+    Column<H>{"contact_nodes", "1",
+              "of the nodes that may touch, those with a normal force; at sharp corners of the "
+              "ground each contact with one counts: a corner on an edge, and each facet of a node "
+              "beside it",
               [](const H& r) { return static_cast<double>(r.nodes); }},
     Column<H>{"sticking_nodes", "1", "of these, those that stick",
               [](const H& r) { return static_cast<double>(r.sticking); }},

@@ -132,9 +132,12 @@ TEST(RingWheel, TheLedgerHasTheWorksOfAnother) {
   EXPECT_NEAR(o.sums.by_mass, 351.9, 0.5);
   EXPECT_NEAR(o.sums.by_stiffness, 110.3, 0.2);
   EXPECT_NEAR(o.sums.by_residual, 146.0, 0.6);
-  // Friction by the mean of the forces at both ends of a step: near that of small steps.
+  // Friction by the mean of the forces at both ends of a step, where they stood: near that of small
+  // steps, and none of it without a coefficient.
   const Outcome fine = outcome({.modes = 40, .passes = 20.618, .friction = 0.3});
-  EXPECT_NEAR(o.sums.friction, fine.sums.friction, 0.03 * fine.sums.friction);
+  EXPECT_NEAR(o.sums.friction, fine.sums.friction, 0.005 * fine.sums.friction);
+  const Outcome none = outcome({.modes = 40, .friction = 0.0});
+  EXPECT_NEAR(none.sums.friction, 0.0, 1e-9 * fine.sums.friction);
   EXPECT_NEAR(o.sums.arrival, 68.4, 0.3);
 }
 

@@ -331,7 +331,7 @@ void demand_shared_body(const Case& c, int threads, SharedBody& shared) {
 }
 
 /// The part of the setup that depends on the rest of the case.
-void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
+void set_up_run(const Case& c, Setup& s, SharedBody* shared, Steps steps) {
   RONDO_DEMAND(s.model.n_nodes() > 0 && s.model.n_nodes() == s.mesh.n_nodes() &&
                    s.probes.size() == (s.model.solid ? 0 : c.output.probes.size()),
                s.model.n_nodes(), s.mesh.n_nodes(), s.probes.size());  // make_body() has been
@@ -345,7 +345,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared) {
                                      return lumped_mass_of(s.model)[k] > 0.0;
                                    }),
                s.model.free.size());  // else choose_step() had refused the numbers
-  check_branches(c, s);
+  if (steps == Steps::of_full_run) check_branches(c, s);
   set_initial_fields(c, s, shared);
   refuse_held_in_ground(c, s);
   for (std::string told : {held_outside_contact(c, s), small_ground(c, s)})
@@ -369,7 +369,7 @@ InputError with_units(const Case& c, const Setup& s, const InputError& refusal) 
 
 }  // namespace
 
-Setup build(const Case& c, int threads, SharedBody* shared) {
+Setup build(const Case& c, int threads, SharedBody* shared, Steps steps) {
   Setup s;
   try {
     if (shared) {
@@ -378,7 +378,7 @@ Setup build(const Case& c, int threads, SharedBody* shared) {
     } else {
       make_body(c, threads, s);
     }
-    set_up_run(c, s, shared);
+    set_up_run(c, s, shared, steps);
     if (shared) shared->setup.frequencies_above = s.frequencies_above;
     return s;
   } catch (const InputError& refusal) {

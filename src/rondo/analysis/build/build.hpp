@@ -21,6 +21,9 @@ struct SharedBody {
   std::any other;     ///< what an analysis keeps instead, of a type of its own
 };
 
+/// Which run will make its steps from a Setup.
+enum class Steps { of_full_run, of_reduced_wheel };
+
 /// Equal for cases that share a body.
 std::string body_key(const Case& c);
 
@@ -57,6 +60,8 @@ std::vector<int> held_nodes(const dynamics::Model& model);
 /// @param threads 0: chosen by size. @throws InputError: what build_mesh() says, step above the
 /// critical one, spin beyond the softening limit with a stationary start, start inside the ground.
 /// @param shared is used where it fits the case, and else replaced; null: nothing is kept
-Setup build(const Case& c, int threads, SharedBody* shared = nullptr);
+/// @param steps of a full run must resolve the viscous branches; reduced wheels have other steps
+Setup build(const Case& c, int threads, SharedBody* shared = nullptr,
+            Steps steps = Steps::of_full_run);
 
 }  // namespace rondo::study

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <span>
 
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/contract.hpp"
@@ -122,13 +124,47 @@ Told branch_line(const Described& d, const fem::ViscousBranch& branch, double st
   return {d.name.empty() ? "viscosity" : "viscosity of " + d.name, text};
 }
 
-/// What a step resolves in place of a branch that relaxes in so many of them.
-std::string slower_than(const Described& d, double steps, double step) {
-  if (d.law.loss_factor > 0.0) {
-    const double highest = d.law.loss_band.y * steps;
-    return fmt::format("a highest frequency of at most {:.4g} Hz, below {:.4g} Hz to resolve it",
-                       highest, highest / resolved_steps);
+/// Stiffness of sudden strains over that of slow ones.
+double sudden_share(std::span<const fem::ViscousBranch> branches) {
+  double share = 1.0;
+  for (const fem::ViscousBranch& branch : branches) share += branch.relative_modulus;
+  return share;
+}
+
+/// By how much the step is longer at most if material.loss_band ends at this frequency [Hz]: as the
+/// root of the stiffness; with damping, whose bound the stiffness of sudden strains sets, up to the
+/// stiffness itself.
+double growth_of_step(const Case& c, double highest) {
+  const double power = c.damping.stiffness > 0.0 ? 1.0 : 0.5;
+  double most = 1.0;
+  for (const Described& d : materials_in(c)) {
+    if (d.law.loss_factor == 0.0) continue;
+    const fem::Band band{std::min(d.law.loss_band.x, 0.1 * highest), highest};
+    const double now = sudden_share(fem::branches_of(d.material));
+    const double then = sudden_share(fem::branches_of(d.law.loss_factor, band));
+    most = std::max(most, std::pow(now / then, power));
   }
+  return most;
+}
+
+/// The end of the band [Hz] whose shortest branch relaxes in a step. A narrower band has less
+/// stiffness at sudden strains, hence a longer step, which its own branches must resolve.
+/// @param steps in which the shortest branch of the case relaxes
+double highest_frequency(const Case& c, const Described& d, double steps) {
+  constexpr int passes = 8;         // the growth depends on the logarithm of the frequency
+  constexpr double rounded = 0.98;  // for its digits in the message, and what the passes miss
+  double highest = d.law.loss_band.y;
+  for (int pass = 0; pass < passes; ++pass)
+    highest = d.law.loss_band.y * steps / growth_of_step(c, highest);
+  return rounded * highest;
+}
+
+/// What a step resolves in place of a branch that relaxes in so many of them.
+std::string slower_than(const Case& c, const Described& d, double steps, double step) {
+  if (d.law.loss_factor > 0.0)
+    return fmt::format(
+        "a highest frequency of at most about {:.3g} Hz, below {:.3g} Hz to resolve it",
+        highest_frequency(c, d, steps), highest_frequency(c, d, steps / resolved_steps));
   return fmt::format(
       ">= {0:.4g}, above {1:.4g} to resolve it; or no such branch: one so fast is practically "
       "always relaxed",
@@ -161,11 +197,12 @@ void check_branches(const Case& c, Setup& s) {
       const std::string found =
           fmt::format("a branch that relaxes in {:.4g} s, {:.3g} of the step of {:.4g} s", time,
                       time / step, step);
-      const std::string slower = slower_than(d, time / step, step);
+      const std::string slower = slower_than(c, d, time / step, step);
       if (time < step)
         throw case_error(c, time_key(d, b), found + ": the step passes over it", slower);
       s.warnings.push_back(fmt::format("{}: {}: its losses are rough below {} steps: {}",
                                        time_key(d, b), found, resolved_steps, slower));
+      if (d.law.loss_factor > 0.0) break;  // the shortest one is the first of its band
     }
   }
 }

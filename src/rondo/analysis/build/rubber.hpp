@@ -12,7 +12,8 @@ namespace rondo::study {
 /// rubber
 void add_rubber(const Case& c, Setup& s);
 
-/// Branches that relax within a step are refused, within four warned of. @pre the step is chosen
+/// Branches that relax within a step of a full run are refused, within four warned of. Reduced
+/// wheels take any. @pre the step is chosen
 void check_branches(const Case& c, Setup& s);
 
 /// Law, moduli and branches of each rubber, for `rondo check`. @param step explicit; 0: none [s]

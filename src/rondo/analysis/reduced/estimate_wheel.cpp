@@ -28,7 +28,7 @@ struct Means {
 
 /// None: the run was to stop.
 std::optional<Means> means_of(const Case& c, const RunOptions& options) {
-  Setup setup = build(c, 1);
+  Setup setup = build(c, 1, nullptr, Steps::of_reduced_wheel);
   PreparedWheel wheel;
   prepare_wheel(c, options, {}, setup, wheel);
   const dynamics::Model& model = setup.model;

@@ -107,18 +107,33 @@ rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
           .fewest = fewest_modes};
 }
 
+/// The first region whose branches are not those of [material] or, where no cell has these, not
+/// those of the first cell. None: all cells have the same branches.
+std::optional<std::size_t> unlike_region(const Case& c, const Setup& setup) {
+  const auto branches = [&](std::size_t cell) -> const std::vector<fem::ViscousBranch>& {
+    return fem::branches_of(fem::material_of(setup.mesh, setup.materials, cell));
+  };
+  bool alike = true, has_common = false;
+  for (std::size_t e = 0; e < setup.mesh.cells.size(); ++e) {
+    alike = alike && branches(e) == branches(0);
+    has_common = has_common || branches(e) == fem::branches_of(c.material);
+  }
+  if (alike) return {};
+  const auto& expected = has_common ? fem::branches_of(c.material) : branches(0);
+  const auto found = std::ranges::find_if(c.regions, [&](const MaterialRegion& region) {
+    return fem::branches_of(region.material) != expected;
+  });
+  RONDO_DEMAND(found != c.regions.end(), c.regions.size());
+  return static_cast<std::size_t>(found - c.regions.begin());
+}
+
 /// The residual of a wheel creeps by one spectrum, which a body has whose branches are the same
 /// everywhere.
 void refuse_unlike_branches(const Case& c, const Setup& setup) {
   if (setup.model.viscous.empty()) return;
-  const std::vector<fem::Material>& materials = setup.materials;
-  const std::vector<int>& regions = setup.mesh.region;
-  const std::size_t first = regions.empty() ? 0 : at(regions.front());
-  const auto differs = [&](int region) {
-    return fem::branches_of(materials[at(region)]) != fem::branches_of(materials[first]);
-  };
-  if (std::ranges::none_of(regions, differs)) return;
-  throw case_error(c, "material.region[0]",
+  const std::optional<std::size_t> region = unlike_region(c, setup);
+  if (!region) return;
+  throw case_error(c, item_of("material.region", *region),
                    "regions differ in their viscous branches, and what no mode of a reduced wheel "
                    "has creeps by one spectrum",
                    "no loss_factor and no viscosity of a region, and one for all of the body in "

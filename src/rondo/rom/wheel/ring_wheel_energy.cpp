@@ -129,12 +129,13 @@ void RingWheel::account(const WheelMotion& m, WheelReport& report) {
   if (!creep_)
     e.by_residual = settings_.stiffness_damping / dt * (of.end - 2.0 * of.across + of.start);
   e.internal += by_table;
+  const Complex back = rotation(m.angle - m.angle_next);  // the force before does not turn on
   const double slides = settings_.slip == SlipRule::bdf2 ? 1.5 : 1.0;
   for (std::size_t i = 0; i < solved_.size(); ++i) {
     const Near& near = near_[solved_[i]];
     const GapContact& c = law_[i];
     const Memory& was = memory_of(near.node);
-    const double before = dot(tangent_of(touch_[i].normal), near.turn * was.force);
+    const double before = dot(tangent_of(touch_[i].normal), back * (near.turn * was.force));
     e.friction -= 0.5 * slides * (before + c.shear) * c.slip;
     if (was.known > 0) e.arrival += c.normal * (was.gap[0] - c.gap);
   }

@@ -199,7 +199,7 @@ void reduce_case(const ReduceRequest& r, ReduceReport& report) {
   if (c.analysis.kind != AnalysisKind::dynamic)
     throw case_error(c, "analysis.kind", "a reduced wheel moves in time",
                      "\"dynamic\"; or run this case, and rondo reduce RESULTS --basis pod");
-  Setup setup = build(c, 1);
+  Setup setup = build(c, 1, nullptr, Steps::of_reduced_wheel);
   PreparedWheel wheel;
   RunOptions options;
   options.reduced = wheel_of_case;
@@ -212,7 +212,7 @@ void reduce_runs(const ReduceRequest& r, ReduceReport& report) {
   const PodRequest pod = pod_request(r);
   const std::vector<io::RunReader> runs = open_runs(pod, snapshot_choice_of(pod));
   const Case c = case_of(runs);
-  Setup setup = build(c, 1);
+  Setup setup = build(c, 1, nullptr, Steps::of_reduced_wheel);
   PreparedWheel wheel;
   begin_wheel(c, {}, {}, setup, wheel);
   refuse_without_sectors(runs.front(), wheel);
