@@ -89,10 +89,53 @@ class SlipStep(ProgramTest):
         self.assertLess(braked["slip_step"]["force_x"]["after"], -4000.0)
         self.assertAlmostEqual(self.table()["slip_ratio"][-1], rows["slip_ratio"][0] - 0.05, delta=1e-12)
 
+    def test_of_the_slip_ratio_rolls_backwards(self):
+        """As forwards, in a mirror: a ratio > 0 pushes along the heading, which brakes."""
+        for step in (0.01, -0.01):
+            forwards, _ = self.of(*STEPPED, f"analysis.slip_ratio_step={-step}")
+            ahead = self.table()
+            back, _ = self.of(*STEPPED, f"analysis.slip_ratio_step={step}", "motion.speed=-10",
+                              "motion.angular_velocity=-33.76455")
+            rows = self.table()
+            self.assertAlmostEqual(rows["slip_ratio"][0], -0.01277, delta=1e-5)
+            self.assertAlmostEqual(rows["slip_ratio"][-1], rows["slip_ratio"][0] + step, delta=1e-12)
+            self.assertLess(abs(rows["speed"] + ahead["speed"]).max(), 1e-12)
+            for name in ("before", "after", "relaxation_length"):
+                sign = 1.0 if name == "relaxation_length" else -1.0
+                self.assertAlmostEqual(back["slip_step"]["force_x"][name] / forwards["slip_step"]["force_x"][name], sign,
+                                       delta=1e-6)
+
+    def test_steps_that_do_not_roll_are_refused(self):
+        for given, said in [
+                (("motion.speed=4", "analysis.slip_ratio_step=0.5"), "a step > -1.605 and < 0.3949"),
+                (("motion.speed=5.064683", "analysis.slip_ratio_step=0.5"), "at most 20000 steps"),
+                (("motion.speed=0", TURNS), "its speed after the step is 0"),
+                ((TURNS, "analysis.step_distance=104"), "2.012e+04 steps of a sample, 0.005169 m each at 10 m/s")]:
+            for command in (("check",), ("run", "-o", self.out)):
+                done = run(command[0], self.case(STEADY), *command[1:], *settings(*STEPPED, *given))
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertIn(said, done.stderr)
+        done = run("check", self.case(STEADY), *settings(*STEPPED, TURNS))
+        self.assertIn("1 m rolled after it, 194 steps, 360 a turn", done.stdout)
+
     def test_a_short_distance_is_warned_of(self):
         told, said = self.of(*STEPPED[:3], TURNS, "analysis.step_distance=0.1")
-        self.assertIn("analysis.step_distance = 0.1 m: only 4", said)
+        self.assertIn("analysis.step_distance = 0.1 m: only 49.9 % of the change of the lateral force is reached after 0.1034 m",
+                      said)
         self.assertIsNone(told["slip_step"]["force_lateral"]["relaxation_length"])
+        told, said = self.of(*STEPPED[:3], TURNS, "analysis.step_distance=0.001")
+        self.assertIn("is reached after 0.005169 m, and no exponential is fitted", said)
+        self.assertIsNone(told["slip_step"]["force_lateral"]["fitted_length"])
+        self.assertIsNone(told["slip_step"]["force_lateral"]["fit_error"])
+
+    def test_a_slow_moment_and_a_sliding_wheel_are_warned_of(self):
+        _, said = self.of(*STEPPED[:3], TURNS, "analysis.step_distance=0.41")
+        self.assertNotIn("lateral force", said)
+        self.assertIn("of the change of the aligning moment is reached", said)
+        _, said = self.of(*STEPPED, TURNS)
+        self.assertNotIn("warning", said)
+        _, said = self.of(*STEPPED, "analysis.slip_angle_step=0.05")
+        self.assertIn("of the load is where the wheel slides", said)
 
     def test_load_and_torque_are_held(self):
         text = STEADY.replace("height = 0.29 ", "#").replace("speed = 10.0 ", "#")

@@ -39,7 +39,8 @@ TEST(Relaxation, OfAnExponentialIsItsLength) {
   EXPECT_NEAR(*found.length, 0.5, 1e-4);  // linear between the rows
   EXPECT_NEAR(*found.fitted, 0.5, 1e-8);
   EXPECT_NEAR(found.share, -std::expm1(-6.0), 1e-12);
-  EXPECT_LT(found.fit_error, 1e-9);
+  EXPECT_TRUE(found.changes);
+  EXPECT_LT(found.fit_error.value(), 1e-9);
 }
 
 /// A straight line reaches 1 - 1/e there, and is no exponential.
@@ -47,7 +48,7 @@ TEST(Relaxation, OfALineIsWhereItReachesItsShare) {
   const Rolled r = rolled(0.1, 10, [](double s) { return s; });
   const Relaxation found = relaxation_of(r.distance, r.force, -200.0, 1e-3);
   EXPECT_NEAR(found.length.value(), 1.0 - std::exp(-1.0), 1e-12);
-  EXPECT_GT(found.fit_error, 0.05);
+  EXPECT_GT(found.fit_error.value(), 0.05);
 }
 
 TEST(Relaxation, IsNotThereBeforeItIsReached) {
@@ -61,8 +62,24 @@ TEST(Relaxation, IsNotThereBeforeItIsReached) {
 TEST(Relaxation, IsNotThereWithoutAChange) {
   const Rolled r = rolled(0.01, 30, [](double) { return 0.0; });
   const Relaxation found = relaxation_of(r.distance, r.force, 100.0 + 1e-4, 1e-3);
-  EXPECT_FALSE(found.length || found.fitted);
+  EXPECT_FALSE(found.changes || found.length || found.fitted || found.fit_error);
   EXPECT_EQ(found.share, 0.0);
+}
+
+/// What is still, all but still, or goes back would take any length; what jumps, none.
+TEST(Relaxation, HasNoFitBeyondTheSearch) {
+  const auto found = [](auto share) {
+    const Rolled r = rolled(0.01, 30, share);
+    return relaxation_of(r.distance, r.force, -200.0, 1e-3);
+  };
+  for (const double part : {0.0, 0.02, -0.02}) {
+    const Relaxation short_way = found([=](double s) { return part * s / 0.3; });
+    EXPECT_TRUE(short_way.changes);
+    EXPECT_FALSE(short_way.length || short_way.fitted || short_way.fit_error) << part;
+  }
+  const Relaxation jump = found([](double s) { return s > 0.0 ? 1.0 : 0.0; });
+  EXPECT_NEAR(jump.length.value(), 0.01 * (1.0 - std::exp(-1.0)), 1e-12);
+  EXPECT_FALSE(jump.fitted || jump.fit_error);
 }
 
 }  // namespace relaxation_test

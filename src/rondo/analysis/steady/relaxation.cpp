@@ -32,11 +32,15 @@ double error_of(std::span<const double> distance, const std::vector<double>& sha
   return std::sqrt(sum / static_cast<double>(share.size()));
 }
 
-/// By golden sections of the logarithm, from a tenth of the first row to ten times the last.
-double fitted_to(std::span<const double> distance, const std::vector<double>& share) {
+/// By golden sections of the logarithm, from a tenth of the first row to ten times the last. What
+/// ends at a limit has its minimum beyond it.
+std::optional<double> fitted_to(std::span<const double> distance,
+                                const std::vector<double>& share) {
   constexpr double part = 1.0 / std::numbers::phi;
   constexpr int sections = 60;
-  double low = std::log(0.1 * distance[1]), high = std::log(10.0 * distance.back());
+  constexpr double at_limit = 1e-6;
+  const double least = std::log(0.1 * distance[1]), most = std::log(10.0 * distance.back());
+  double low = least, high = most;
   const auto error = [&](double at) { return error_of(distance, share, std::exp(at)); };
   double left = high - part * (high - low), right = low + part * (high - low);
   double of_left = error(left), of_right = error(right);
@@ -49,7 +53,9 @@ double fitted_to(std::span<const double> distance, const std::vector<double>& sh
       right = low + part * (high - low), of_right = error(right);
     }
   }
-  return std::exp(0.5 * (low + high));
+  const double found = 0.5 * (low + high);
+  if (std::min(found - least, most - found) < at_limit) return std::nullopt;
+  return std::exp(found);
 }
 
 }  // namespace
@@ -60,14 +66,15 @@ Relaxation relaxation_of(std::span<const double> distance, std::span<const doubl
                force.size());
   Relaxation r{.before = force[0], .after = after};
   const double change = after - force[0];
-  if (!(std::abs(change) > smallest)) return r;
+  r.changes = std::abs(change) > smallest;
+  if (!r.changes) return r;
   std::vector<double> share;
   share.reserve(force.size());
   for (const double f : force) share.push_back((f - force[0]) / change);
   r.share = share.back();
   r.length = length_of(distance, share);
   r.fitted = fitted_to(distance, share);
-  r.fit_error = error_of(distance, share, *r.fitted);
+  if (r.fitted) r.fit_error = error_of(distance, share, *r.fitted);
   return r;
 }
 

@@ -16,13 +16,18 @@ using statics::RollingEnd;
 using statics::RollingSolution;
 using statics::RollingWindow;
 
-constexpr std::size_t most_steps = 100'000;
+/// Of a wheel that is slower on its way than after it, which is not foreseen.
+constexpr std::size_t most_rows = 2 * most_slip_steps;
 
-/// At a slip ratio of a rim that goes round at a speed; it is that of the component along the
-/// heading.
-double speed_of(double ratio, double rim_speed, double slip_angle) {
-  return (ratio >= 0.0 ? rim_speed * (1.0 - ratio) : rim_speed / (1.0 + ratio)) /
-         std::cos(slip_angle);
+/// The part of the load that is carried where friction is at its limit, over all samples.
+double sliding_share(const RollingSolution& s) {
+  double all = 0.0, sliding = 0.0;
+  for (std::size_t k = 0; k < s.status.size(); ++k) {
+    const double force = s.force[3 * static_cast<Eigen::Index>(k)];
+    all += force;
+    if (s.status[k].status == contact::Status::slip) sliding += force;
+  }
+  return sliding / all;
 }
 
 class Roller {
@@ -31,16 +36,14 @@ class Roller {
       : case_(c), before_(before), rim_speed_(rim_speed()), drive_(before.drive) {
     const AnalysisCase& a = c.analysis;
     drive_.slip_angle += a.slip_angle_step.value_or(0.0);
-    if (a.slip_ratio_step)
-      drive_.speed = speed_of(slip_ratio(before.solution.speed, before.drive) + *a.slip_ratio_step,
-                              rim_speed_, drive_.slip_angle);
+    if (a.slip_ratio_step) drive_.speed = speed_after_step(c, before.wheel);
   }
 
   SlipStep roll();
 
  private:
   [[nodiscard]] double rim_speed() const noexcept {
-    return -before_.window.harmonics().body().spin * before_.radius;
+    return -before_.window.harmonics().body().spin * before_.wheel.radius;
   }
   [[nodiscard]] double slip_ratio(double speed, const RollingDrive& drive) const noexcept {
     return dynamics::slip_ratio(rim_speed_, speed * std::cos(drive.slip_angle));
@@ -73,8 +76,13 @@ bool Roller::find_after(SlipStep& step) const {
   RollingWindow<3> window = before_.window;
   const RollingSolution s = statics::solve_rolling_from(window, drive_, before_.solution);
   step.after = row_of(0.0, s, drive_);
-  if (s.end != RollingEnd::solved) step.trouble = trouble(s, "steady rolling after it");
-  return s.end == RollingEnd::solved;
+  if (s.end != RollingEnd::solved) {
+    step.trouble = trouble(s, "steady rolling after it");
+    return false;
+  }
+  step.sliding = sliding_share(s);
+  refuse_many_steps(case_, before_.wheel, s.speed);
+  return true;
 }
 
 SlipStep Roller::roll() {
@@ -83,17 +91,18 @@ SlipStep Roller::roll() {
   RollingWindow<3> window(steady.harmonics(), statics::SlipDifference::transient, camber, gravity);
   window.include(steady.pairs());
   RollingSolution s = before_.solution;
-  SlipStep step{.rows = {row_of(0.0, s, before_.drive)}, .after = {}};
+  SlipStep step{
+      .rows = {row_of(0.0, s, before_.drive)}, .after = {}, .radius = before_.wheel.radius};
   if (!find_after(step)) return step;
   for (double distance = 0.0; distance < *case_.analysis.step_distance;) {
     s = statics::roll_on(window, drive_, s);
     distance += std::abs(s.speed) * window.time();
     const std::string where = fmt::format("{:.4g} m after it", distance);
     if (s.end != RollingEnd::solved) step.trouble = trouble(s, where);
-    if (step.rows.size() > most_steps)
+    if (step.rows.size() > most_rows)
       step.trouble = fmt::format(
           "analysis.step_distance = {:.4g} m is more than {} samples: {}; a smaller one",
-          *case_.analysis.step_distance, most_steps, where);
+          *case_.analysis.step_distance, most_rows, where);
     if (!step.trouble.empty()) break;
     step.residual = std::max(step.residual, s.residual);
     step.rows.push_back(row_of(distance, s, drive_));

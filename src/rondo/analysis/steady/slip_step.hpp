@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/analysis/steady/step_speed.hpp"
 #include "rondo/case/case.hpp"
 #include "rondo/core/column.hpp"
 #include "rondo/io/csv.hpp"
@@ -25,6 +26,8 @@ struct SlipStepRow {
 struct SlipStep {
   std::vector<SlipStepRow> rows;  ///< the first before the step; then one for each sample
   SlipStepRow after;              ///< of steady rolling after the step
+  double sliding = 0.0;           ///< share of the load on what slides there              [-]
+  double radius = 0.0;            ///< of the wheel                                        [m]
   double residual = 0.0;          ///< of the law, largest of all                          [-]
   std::string trouble{};          ///< empty: all was solved
 };
@@ -34,13 +37,14 @@ struct BeforeStep {
   const statics::RollingWindow<3>& window;  ///< of "upwind"
   const statics::RollingDrive& drive;
   const statics::RollingSolution& solution;
-  double radius;  ///< of the wheel [m]
+  SteppedWheel wheel;
 };
 
 [[nodiscard]] inline bool has_slip_step(const Case& c) noexcept {
   return c.analysis.slip_angle_step || c.analysis.slip_ratio_step;
 }
-/// Rolls on over analysis.step_distance.
+/// Rolls on over analysis.step_distance. @throws InputError: it is too far at the speed that is
+/// found
 [[nodiscard]] SlipStep roll_after_step(const Case& c, const BeforeStep& before);
 
 /// Writes slip-step.csv. @throws FileError

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <string_view>
 
 #include "rondo/analysis/steady/relaxation.hpp"
 #include "rondo/analysis/steady/slip_step.hpp"
@@ -47,8 +48,9 @@ Relaxation relaxation_in(const SlipStep& step, Force of) {
     distance.push_back(r.distance);
     force.push_back(r.forces.*of);
   }
+  const double arm = of == &statics::RollingForces::aligning ? step.radius : 1.0;
   return relaxation_of(distance, force, step.after.forces.*of,
-                       least_change * step.rows[0].forces.normal);
+                       least_change * step.rows[0].forces.normal * arm);
 }
 
 Json number_or_null(const std::optional<double>& value) {
@@ -68,10 +70,11 @@ constexpr JsonMember<Relaxation> relaxation_rows[] = {
      [](const Relaxation& r) { return number_or_null(r.length); }},
     {"fitted_length", "number", "m",
      "Relaxation length σ of 1 - exp(-s/σ), by least squares over the distance; null: there is no "
-     "change",
+     "change, or the distance is too short to tell it",
      [](const Relaxation& r) { return number_or_null(r.fitted); }},
-    {"fit_error", "number", "", "Root mean square error of that curve, over the change",
-     [](const Relaxation& r) -> Json { return r.fit_error; }},
+    {"fit_error", "number", "",
+     "Root mean square error of that curve, over the change; null: likewise",
+     [](const Relaxation& r) { return number_or_null(r.fit_error); }},
 };
 
 struct Stepped {
@@ -122,6 +125,18 @@ Relaxation leading(const Case& c, const SlipStep& step) {
       step, turns(c) ? &statics::RollingForces::lateral : &statics::RollingForces::heading);
 }
 
+/// Warns of a change that is not reached on the way.
+void add_short_distance(const Case& c, const SlipStep& step, std::string_view name,
+                        const Relaxation& r, std::vector<std::string>& warnings) {
+  constexpr double enough = 0.95;
+  if (!r.changes || r.share >= enough) return;
+  warnings.push_back(fmt::format(
+      "analysis.step_distance = {:.4g} m: only {:.3g} % of the change of the {} is reached after "
+      "{:.4g} m, and {}; a longer distance",
+      *c.analysis.step_distance, 100.0 * r.share, name, step.rows.back().distance,
+      r.fitted ? "the exponential is fitted to a part" : "no exponential is fitted"));
+}
+
 }  // namespace
 
 io::CsvPlace write_slip_step(const SlipStep& step, const std::filesystem::path& directory) {
@@ -141,28 +156,36 @@ void add_slip_step(const Case& c, const SlipStep& step, Json& json) {
 
 std::vector<std::string> notes_of(const Case& c, const SlipStep& step) {
   const Relaxation r = leading(c, step);
-  if (!r.fitted) return {};
+  if (!r.changes) return {};
   return {fmt::format(
       "step of the slip {}: from {:.5g} N to {:.5g} N, relaxation length {}, of an exponential "
-      "{:.4g} m; {:.3g} % of it after {:.4g} m",
+      "{}; {:.3g} % of it after {:.4g} m",
       turns(c) ? "angle, lateral force" : "ratio, traction", r.before, r.after,
-      r.length ? fmt::format("{:.4g} m", *r.length) : "not reached", *r.fitted, 100.0 * r.share,
+      r.length ? fmt::format("{:.4g} m", *r.length) : "not reached",
+      r.fitted ? fmt::format("{:.4g} m", *r.fitted) : "none", 100.0 * r.share,
       step.rows.back().distance)};
 }
 
 std::vector<std::string> warnings_of(const Case& c, const SlipStep& step) {
-  constexpr double enough = 0.95;
+  constexpr double most_sliding = 0.5;
+  const std::string key(turns(c) ? "analysis.slip_angle_step" : "analysis.slip_ratio_step");
   const Relaxation r = leading(c, step);
-  if (!r.fitted)
-    return {fmt::format(
-        "{}: the step changes the force by less than {:.0e} of the load, and there "
-        "is no relaxation length",
-        turns(c) ? "analysis.slip_angle_step" : "analysis.slip_ratio_step", least_change)};
-  if (r.share >= enough) return {};
-  return {
-      fmt::format("analysis.step_distance = {:.4g} m: only {:.3g} % of the change is reached, "
-                  "and the exponential is fitted to a part; a longer distance",
-                  *c.analysis.step_distance, 100.0 * r.share)};
+  if (!r.changes)
+    return {
+        fmt::format("{}: the step changes the force by less than {:.0e} of the load, and there "
+                    "is no relaxation length",
+                    key, least_change)};
+  std::vector<std::string> all;
+  add_short_distance(c, step, turns(c) ? "lateral force" : "traction", r, all);
+  if (turns(c))
+    add_short_distance(c, step, "aligning moment",
+                       relaxation_in(step, &statics::RollingForces::aligning), all);
+  if (step.sliding > most_sliding)
+    all.push_back(fmt::format(
+        "{}: after the step {:.3g} % of the load is where the wheel slides, and the relaxation "
+        "length is shorter than that of small slips; a smaller step",
+        key, 100.0 * step.sliding));
+  return all;
 }
 
 std::vector<ColumnLabel> slip_step_labels() {

@@ -43,6 +43,8 @@ class SteadyRolling final : public Analysis {
         directory_(options.directory) {
     if (has_large_strains(c)) strain_.take_large_strains();
     refuse_held_in_ground(c, body_->mesh);
+    if (has_slip_step(c))
+      refuse_many_steps(c, stepped_wheel(), speed_after_step(c, stepped_wheel()));
     tell_physical_figures(c, {body_->mesh, body_->materials, body_->inflation}, told_);
     if (options.resume)
       throw case_error(c, "analysis.kind", "steady rolling has no checkpoints to resume from",
@@ -72,6 +74,9 @@ class SteadyRolling final : public Analysis {
   [[nodiscard]] std::string wrong_state() const;
   [[nodiscard]] std::vector<std::string> warnings_of_state() const;
   [[nodiscard]] int samples() const noexcept { return case_.analysis.samples_per_sector; }
+  [[nodiscard]] SteppedWheel stepped_wheel() const {
+    return {body_->radius, body_->mesh.n_sectors * samples()};
+  }
 
   const Case& case_;
   int threads_;  ///< 0: chosen by size
@@ -99,9 +104,7 @@ CheckReport SteadyRolling::check(double /*trial*/) {
       "sectors", fmt::format("{} of {} degrees of freedom, {} samples each", body_->mesh.n_sectors,
                              body_->sector_dofs, samples()));
   if (has_slip_step(case_))
-    r.lines.emplace_back(
-        "slip step", fmt::format("{:.4g} m rolled after it, {} steps a turn",
-                                 *case_.analysis.step_distance, body_->mesh.n_sectors * samples()));
+    r.lines.emplace_back("slip step", told_of_steps(case_, stepped_wheel()));
   r.warnings = warnings();
   return r;
 }

@@ -29,7 +29,6 @@ class SteadyBody final : public RolledBody {
   fem::SectorBlocks<D> sector;
   std::vector<fem::ViscousPart<fem::SectorBlocks<D>>> viscous;  ///< of materials with branches
   std::optional<dynamics::SweptPart> swept;  ///< what is not linear about the state, in space
-  double radius = 0.0;                       ///< outer, undeformed [m]
   std::optional<statics::RollingHarmonics<D>> harmonics;
   std::optional<statics::RollingWindow<D>> window;  ///< without pairs: to be copied
 };

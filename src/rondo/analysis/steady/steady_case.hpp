@@ -95,6 +95,7 @@ class RolledBody {
   std::vector<fem::Material> materials;  ///< one for each region of the mesh
   std::vector<double> mass;              ///< (n) [kg/m], in three dimensions [kg]
   std::size_t dofs = 0, sector_dofs = 0;
+  double radius = 0.0;                ///< outer, undeformed [m]
   std::vector<std::string> warnings;  ///< for the user: the caller prints them
   double harmonics_wall_s = 0.0;
   std::optional<InflationFigures> inflation;  ///< none: about the undeformed shape

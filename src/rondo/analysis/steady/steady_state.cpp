@@ -59,7 +59,8 @@ SteadyState<D>::SteadyState(const Case& c, const SteadyBody<D>& body)
 template <int D>
 void SteadyState<D>::step_slip() {
   if constexpr (D == 3)
-    slip_step_ = roll_after_step(case_, {window_, drive_, solution_, body_.radius});
+    slip_step_ = roll_after_step(
+        case_, {window_, drive_, solution_, {body_.radius, window_.harmonics().turn()}});
 }
 
 /// In the plane, where the speed is asked for and Newton does not find it, from the statuses of
