@@ -398,7 +398,6 @@ class Refusals(SolidTest):
         (["material.plane=stress"], "material.plane", "sides are free"),
         (["material.stress_stiffening=centrifugal"], "material.stress_stiffening", '"none"'),
         (["contact.between=all"], "contact.between", '"none"'),
-        (["ground.profile=[[-1, 0], [1, 0], [2, -1]]"], "ground.fillet", "ground.fillet > 0"),
         (["output.probe=[{name = 'p', position = [0.2, 0.0]}]"], "output.probe[0]", "snapshots"),
         (["initial.state=steady-rolling"], "initial.state", '"stationary"'),
         (["initial.displacement_gradient=[[0.01, 0], [0, 0]]"], "initial.displacement_gradient",

@@ -9,14 +9,15 @@ import pytest
 PACKAGE = pathlib.Path(__file__).resolve().parents[2] / "python" / "rondo"
 DRAWS = ("plots", "figures", "pictures", "style")
 ALLOWED = {  # by the first folder, or the module itself: what it may import besides its own
-    "data": set(), "style": set(), "plots": {"data", "style"}, "studies": {"data", "native"},
-    "figures": {"data", "plots", "style"}, "pictures": {"data", "plots", "reports"},
+    "data": set(), "style": set(), "plots": {"data", "files", "style"}, "studies": {"data", "native"},
+    "figures": {"data", "plots", "style"}, "pictures": {"data", "files", "plots", "reports"},
     "reports": {"data", "figures", "plots", "style"},
     "native": {"data", "options", "studies"}, "options": set(), "about": {"data", "native", "studies"},
     "_core": set(), "matrices": {"_core", "data"},
     "simulation": {"_core", "data", "matrices", "native"}, "solution": {"data", "native", "simulation"},
+    "files": {"_core", "data", "native"},
     "calls": {"data", "native", "studies"}, "reduced_wheel": {"calls", "data", "native", "simulation"},
-    "__init__": {"about", "calls", "data", "pictures", "interrupts", "needs", "reduced_wheel", "simulation",
+    "__init__": {"about", "calls", "data", "files", "pictures", "interrupts", "needs", "reduced_wheel", "simulation",
                  "solution"},
     "command_help": set(), "interrupts": {"needs"}, "needs": set(),
     "__main__": {"__init__", "about", "command_help", "interrupts", "needs", "data", "studies", "figures", "reports", "style"},

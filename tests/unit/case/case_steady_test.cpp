@@ -108,7 +108,7 @@ TEST(CaseSteady, TakesAStepOfTheSlipOfAWheelAlone) {
   expect_fault(rolling(), "analysis.step_distance", 0, "without a step", {wheel, upwind, far});
   expect_fault(rolling(), "analysis.slip_ratio_step", 0, "together with analysis.slip_angle_step",
                {wheel, upwind, turns, slips, far});
-  expect_fault(rolling(), "analysis.slip", table_line, "the places of one sample before",
+  expect_fault(rolling(), "analysis.slip", table_line, "its ways from one sample before",
                {wheel, turns, far});
   expect_fault(rolling(), "analysis.slip_angle_step", 0, "this body is plane",
                {upwind, turns, far});

@@ -11,6 +11,7 @@
 
 #include "rondo/analysis/build/build.hpp"
 #include "rondo/analysis/elements/combinations.hpp"
+#include "rondo/case/case_keys.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/core/process_wide.hpp"
