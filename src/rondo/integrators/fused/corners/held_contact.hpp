@@ -32,8 +32,8 @@ class CandidateFields {
   /// @param u not looked at with a loaded rim, which has not moved yet
   virtual void move(std::size_t candidate, Vec3 v, Vec3 u) noexcept = 0;
   /// Force of the pressures in three dimensions, co-rotating frame                        [N]
-  [[nodiscard]] virtual Vec3 load_on(const StepContext& /*step*/,
-                                     std::size_t /*candidate*/) const noexcept {
+  [[nodiscard]] virtual Vec3 pressed_by(const StepContext& /*step*/,
+                                        std::size_t /*candidate*/) const noexcept {
     return {};
   }
 

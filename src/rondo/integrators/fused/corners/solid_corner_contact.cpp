@@ -81,7 +81,7 @@ void SolidCornerContact::hold(const StepContext& step, const CandidateFields& fi
   state_.v.space()[k] = motion.v + Vec3(back * motion.v.plane());
   held_.push_back({k,
                    {.change = motion.force,
-                    .load = fields.load_on(step, k),
+                    .load = fields.pressed_by(step, k),
                     .elastic = {},
                     .internal = {},
                     .moved = motion.moved}});

@@ -69,7 +69,8 @@ void SolidCyclicIntegrator::move(std::size_t candidate, Vec3 v, Vec3 u) noexcept
   chunks_[chunk_of(place.sector)].move(place, v, u);
 }
 
-Vec3 SolidCyclicIntegrator::load_on(const StepContext& step, std::size_t candidate) const noexcept {
+Vec3 SolidCyclicIntegrator::pressed_by(const StepContext& step,
+                                       std::size_t candidate) const noexcept {
   const CyclicPlace place = plan_.place[candidate];
   return chunks_[chunk_of(place.sector)].load_on(step, place);
 }

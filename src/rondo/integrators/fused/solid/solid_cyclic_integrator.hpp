@@ -20,8 +20,8 @@ class SolidCyclicIntegrator final : public RingIntegrator<SolidChunk, SolidPlan>
   void go_on(const kernels::WheelWay& way, long long step, Share share) noexcept override;
   [[nodiscard]] CandidateMotion motion_of(std::size_t candidate) const noexcept override;
   void move(std::size_t candidate, Vec3 v, Vec3 u) noexcept override;
-  [[nodiscard]] Vec3 load_on(const StepContext& step,
-                             std::size_t candidate) const noexcept override;
+  [[nodiscard]] Vec3 pressed_by(const StepContext& step,
+                                std::size_t candidate) const noexcept override;
 };
 
 }  // namespace rondo::dynamics
