@@ -144,7 +144,6 @@ void CornerFinder::leave_out_middle() {
   at_corners_.resize(kept);
 }
 
-/// A corner on an edge.
 CornerRow CornerFinder::at_nearer_node(const CornerRow& row) const noexcept {
   CornerRow out = on_node(row.node[row.weight[0] < row.weight[1] ? 1 : 0], -row.normal);
   out.point = row.point;
@@ -153,6 +152,7 @@ CornerRow CornerFinder::at_nearer_node(const CornerRow& row) const noexcept {
   return out;
 }
 
+/// A corner on an edge, as one of a plane body (node_to_segment.hpp), with t2.
 CornerRow CornerFinder::on_edge(const contact::EdgeTouch& found) const noexcept {
   const auto [a, b] = edges_.boundary.edges[at(found.edge)];
   const double at_b = found.touch.at;
