@@ -63,6 +63,12 @@ double least_mass_share(const Model& model) noexcept {
   return least;
 }
 
+std::vector<int> places_among(std::span<const int> nodes, std::size_t n) {
+  std::vector<int> place(n, -1);
+  for (std::size_t i = 0; i < nodes.size(); ++i) place[at(nodes[i])] = static_cast<int>(i);
+  return place;
+}
+
 bool has_sharp_corners(const Model& model) noexcept {
   return model.contact && !model.contact->ground.corners().empty();
 }

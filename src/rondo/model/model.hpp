@@ -239,6 +239,9 @@ inline bool has_candidates(const Model& model) noexcept {
   return model.contact || model.surfaces;
 }
 
+/// (n) place of each node among these, -1: it is none of them.
+[[nodiscard]] std::vector<int> places_among(std::span<const int> nodes, std::size_t n);
+
 /// Whether the candidates of the ground are massless (docs/theory.md, 3.10).
 inline bool has_massless_contact(const Model& model) noexcept {
   return !model.lumped_mass.empty();

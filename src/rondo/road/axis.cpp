@@ -46,7 +46,8 @@ Axis::Axis(const std::vector<double>& positions, Border border, double offset)
   make_table();
 }
 
-/// As many steps as there are cells, or up to eight times as many if the cells differ much.
+/// The table has as many steps as there are cells, or up to eight times as many if the cells differ
+/// much.
 void Axis::make_table() {
   double narrowest = last_ - first_;
   for (std::size_t i = 0; i < cells_; ++i)

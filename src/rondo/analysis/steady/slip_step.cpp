@@ -16,7 +16,8 @@ using statics::RollingEnd;
 using statics::RollingSolution;
 using statics::RollingWindow;
 
-/// Of a wheel that is slower on its way than after it, which is not foreseen.
+/// A wheel that rolls more slowly on its way than at its end makes more steps than were foreseen:
+/// no more than this.
 constexpr std::size_t most_rows = 2 * most_slip_steps;
 
 /// The part of the load that is carried where friction is at its limit, over all samples.

@@ -8,7 +8,7 @@
 
 namespace rondo::study {
 
-/// Of one sample each, in analysis.step_distance.
+/// The largest number of steps, of one sample each, that analysis.step_distance may take.
 inline constexpr int most_slip_steps = 20'000;
 
 /// The speed at which dynamics::slip_ratio() is so much. @param rim ωR, of any sign [m/s].
@@ -21,9 +21,9 @@ struct SteppedWheel {
   int samples = 0;      ///< of a turn
 };
 
-/// Of the center, as far as the case gives it: held after the step, or, with a traction or a
-/// torque, that of the rim [m/s]. @throws InputError: the slip ratio would be 1 or more, or -1
-/// or less
+/// The speed of the center after the step [m/s]. With a traction or a torque the case does not give
+/// it, and the speed of the rim takes its place. @throws InputError: the slip ratio would be 1 or
+/// more, or -1 or less
 [[nodiscard]] double speed_after_step(const Case& c, const SteppedWheel& wheel);
 
 /// @throws InputError: analysis.step_distance takes more steps than there may be at this speed

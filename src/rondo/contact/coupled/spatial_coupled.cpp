@@ -195,8 +195,8 @@ class Solution {
     squares();
   }
 
-  /// The same from the solution with less friction, which is looked for with still less: without
-  /// friction there is always one to be found. @param pressed over m |free|, where it begins
+  /// Least squares without friction, then with more and more of it, each from the solution before.
+  /// @param pressed normal impulses at the beginning, over m |free|
   void squares_by_friction(double pressed) {
     constexpr int parts = 16;
     for (std::size_t j = 0; j < p_.size(); ++j)
@@ -204,7 +204,7 @@ class Solution {
     for (int i = 0; i <= parts && !finished(); ++i) improve(static_cast<double>(i) / parts);
   }
 
-  /// The same from anywhere in the cones, each time from another place.
+  /// Least squares from a random place in the cones, another one in each call.
   void squares_from_anywhere() {
     for (std::size_t j = 0; j < p_.size(); ++j) {
       const double most = 2.0 * p_.mass(j) * norm(p_.free[j]), n = most * fraction();
@@ -227,7 +227,7 @@ class Solution {
     if (share == 1.0) make_sweep();
   }
 
-  /// Of work.from into work.found.
+  /// Makes one sweep from work.from into work.found, and keeps what it found if it is the best.
   void make_sweep() {
     std::ranges::copy(work_.from, work_.found.begin());
     sweep(p_, subset_, work_.found, work_.status);

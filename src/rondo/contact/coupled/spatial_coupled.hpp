@@ -51,7 +51,7 @@ struct SpatialWorkspace {
   std::vector<Vec3> found_before;           ///< (nc)
   std::vector<Vec3> of_change, of_found;    ///< (depth, nc) differences of two iterates
   std::vector<Status> status;               ///< (nc)
-  // Of least squares:
+  // Least squares use these:
   std::vector<Vec3> value, trial;  ///< (nc)
   std::vector<double> slope;       ///< (3 nc, 3 nc)
   std::vector<double> matrix;      ///< (3 nc, 3 nc)

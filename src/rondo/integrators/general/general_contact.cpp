@@ -11,6 +11,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/core/keep_larger.hpp"
+#include "rondo/integrators/general/late_contact.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -41,7 +42,6 @@ Vec2 velocity_after(const ContactStep& step, Vec2 arm, Vec2 v) noexcept {
 GeneralContact::GeneralContact(const Model& model)
     : model_(model),
       finder_(model),
-      candidate_(model.n_nodes(), -1),
       response_(model.n_nodes()),
       coupled_({.most_iterations = model.coupled.most_iterations}, model.coupled.dump_above) {
   const std::vector<int>* nodes = model.contact    ? &model.contact->nodes
@@ -52,7 +52,7 @@ GeneralContact::GeneralContact(const Model& model)
                model.n_nodes());
   RONDO_ASSERT(!model.contact || !model.surfaces || model.contact->nodes == model.surfaces->nodes,
                nodes->size());  // one numbering of the candidates
-  for (std::size_t i = 0; i < nodes->size(); ++i) candidate_[at((*nodes)[i])] = static_cast<int>(i);
+  candidate_ = places_among(*nodes, model.n_nodes());
 }
 
 std::span<const ContactRow> GeneralContact::find(const State& state) {
@@ -140,23 +140,12 @@ void GeneralContact::set_velocities(const BodyFrames& frames, const State& state
   }
 }
 
-/// The corner, or the node, was behind some segment in the step before.
-bool GeneralContact::was_found(const ContactRow& row) const noexcept {
-  const auto point = [](std::uint64_t key) { return key >> key_bits_of_edge; };
-  const auto found = std::ranges::lower_bound(coupled_.kept, point(row.key), {},
-                                              [&](const auto& kept) { return point(kept.first); });
-  return found != coupled_.kept.end() && point(found->first) == point(row.key);
-}
-
-/// It may have come in beside the segment, at an end without a neighbour.
-bool GeneralContact::came_round_an_end(const ContactRow& row) const noexcept {
+/// It may have come in beside the segment.
+bool GeneralContact::came_round(const ContactRow& row) const noexcept {
   const bool corner = row.kind == ContactKind::corner;
-  const Vec2 a = finder_.positions()[at(row.rows.node[corner ? 0 : 1])];
-  const Vec2 along = finder_.positions()[at(row.rows.node[corner ? 1 : 2])] - a;
-  const double length = norm(along), foot = dot(along, row.point - a) / length;
-  const double way = 1.01 * model_.dt * std::abs(row.before.y);
-  const auto& beside = finder_.beside(row);
-  return (foot <= way && beside[0] < 0) || (length - foot <= way && beside[1] < 0);
+  const auto place = [&](std::size_t i) { return finder_.positions()[at(row.rows.node[i])]; };
+  return came_round_an_end(row.point, place(corner ? 0 : 1), place(corner ? 1 : 2),
+                           model_.dt * row.before.y, finder_.beside(row));
 }
 
 /// A point that was behind its segment in the step before, and was found behind none then, has been
@@ -167,9 +156,11 @@ void GeneralContact::look_for_late(const BodyFrames& frames, ContactReport& repo
   for (const ContactRow& row : rows_) {
     if (row.kind == ContactKind::facet || -row.gap <= std::max(report.late, harmless)) continue;
     const double gap_before = row.gap - model_.dt * row.before.x;
-    if (-gap_before <= round_off + model_.dt * std::abs(row.turning) || was_found(row)) continue;
+    if (-gap_before <= round_off + model_.dt * std::abs(row.turning) ||
+        was_found(coupled_.kept, row.key))
+      continue;
     const double time = frames.of(model_, at(row.rows.node[0])).frame.time;
-    if (time < 1.25 * model_.dt || came_round_an_end(row)) continue;
+    if (time < 1.25 * model_.dt || came_round(row)) continue;
     report.late = -row.gap;
     report.late_at = row.point;
   }

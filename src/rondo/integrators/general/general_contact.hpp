@@ -51,8 +51,7 @@ class GeneralContact {
                                   const State& state) const;
   void set_velocities(const BodyFrames& frames, const State& state);
   void look_for_late(const BodyFrames& frames, ContactReport& report) const noexcept;
-  [[nodiscard]] bool was_found(const ContactRow& row) const noexcept;
-  [[nodiscard]] bool came_round_an_end(const ContactRow& row) const noexcept;
+  [[nodiscard]] bool came_round(const ContactRow& row) const noexcept;
   void find_clusters();
   [[nodiscard]] bool one_node_on_ground(Rows rows) const;
   void solve_on_ground(const BodyFrames& frames, Rows rows, State& state, ContactReport& report);

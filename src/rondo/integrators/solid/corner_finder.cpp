@@ -61,11 +61,9 @@ CornerFinder::CornerFinder(const Model& model)
       ground_(model.motion.camber),
       edges_(edge_rows(model)),
       deepest_(std::ranges::max(edges_.deepest)),
-      candidate_(model.n_nodes(), -1),
+      candidate_(places_among(model.contact->nodes, model.n_nodes())),
       places_(model.n_nodes()) {
   RONDO_DEMAND(has_sharp_corners(model) && model.solid.has_value());
-  for (std::size_t i = 0; i < model.contact->nodes.size(); ++i)
-    candidate_[at(model.contact->nodes[i])] = static_cast<int>(i);
   for (const auto& [a, b] : edges_.boundary.edges)
     RONDO_DEMAND(candidate_[at(a)] >= 0 && candidate_[at(b)] >= 0, a, b);
 }
@@ -189,7 +187,7 @@ void CornerFinder::find_corner(std::size_t c, std::span<const int> edges,
 
 void CornerFinder::find_on_ground(int node, std::vector<CornerRow>& rows) const {
   const ContactModel& contact = *model_.contact;
-  const std::size_t candidate = at(candidate_[at(node)]);
+  const std::size_t candidate = candidate_of(node);
   const contact::Touches touches = contact.ground.touches(places_[at(node)]);
   for (int t = 0; t < touches.count; ++t) {
     const contact::Touch& touch = touches.at[at(t)];

@@ -37,6 +37,11 @@ class CornerFinder {
   [[nodiscard]] std::span<Vec2> places() noexcept { return places_; }
   [[nodiscard]] std::span<const Vec2> places() const noexcept { return places_; }
 
+  /// Place of a node in ContactModel::nodes. @pre it is there
+  [[nodiscard]] std::size_t candidate_of(int node) const noexcept {
+    return static_cast<std::size_t>(candidate_[static_cast<std::size_t>(node)]);
+  }
+
   /// A corner of the ground and edges that it may touch.
   struct Near {
     std::size_t corner = 0;  ///< place in Ground::corners()

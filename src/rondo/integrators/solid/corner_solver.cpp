@@ -9,6 +9,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/core/keep_larger.hpp"
+#include "rondo/integrators/general/late_contact.hpp"
 #include "rondo/integrators/general/readable_step.hpp"
 
 namespace rondo::dynamics {
@@ -18,6 +19,7 @@ using contact::KeptImpulses;
 using contact::Status;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
 bool is_key_of_corner(std::uint64_t key) noexcept {
   return key >> 62U == static_cast<std::uint64_t>(ContactKind::corner);
 }
@@ -64,12 +66,9 @@ contact::SpatialBlock coupling_of(const SolidContactStep& step, const Model& mod
 CornerSolver::CornerSolver(const Model& model)
     : model_(model),
       finder_(model),
-      limits_{.most_iterations = std::min(most_iterations, model.coupled.most_iterations)},
-      candidate_(model.n_nodes(), -1) {
+      limits_{.most_iterations = std::min(most_iterations, model.coupled.most_iterations)} {
   RONDO_DEMAND(model.dt > 0.0 && model.mass.size() == model.n_nodes(), model.dt, model.mass.size(),
                model.n_nodes());
-  for (std::size_t i = 0; i < model.contact->nodes.size(); ++i)
-    candidate_[at(model.contact->nodes[i])] = static_cast<int>(i);
 }
 
 std::span<const CornerRow> CornerSolver::find(std::span<const CornerFinder::Near> near) {
@@ -141,33 +140,25 @@ double CornerSolver::turning_of(const SolidContactStep& step, const CornerRow& r
   return (gap - row.gap) / model_.dt - row.before.x;
 }
 
-/// It may have come in beside the edge, at an end without a neighbour.
-bool CornerSolver::came_round_an_end(const CornerRow& row) const noexcept {
-  const Vec2 a = finder_.places()[at(row.node[0])];
-  const Vec2 along = finder_.places()[at(row.node[1])] - a;
-  const double length = norm(along), foot = dot(along, row.point - a) / length;
-  const double way = 1.01 * model_.dt * std::abs(row.before.y);
+/// It may have come in beside the edge.
+bool CornerSolver::came_round(const CornerRow& row) const noexcept {
   const auto edge = static_cast<std::size_t>(row.key & ((1ULL << key_bits_of_edge) - 1));
-  const auto& beside = finder_.edges().boundary.beside[edge];
-  return (foot <= way && beside[0] < 0) || (length - foot <= way && beside[1] < 0);
+  return came_round_an_end(row.point, finder_.places()[at(row.node[0])],
+                           finder_.places()[at(row.node[1])], model_.dt * row.before.y,
+                           finder_.edges().boundary.beside[edge]);
 }
 
 /// See GeneralContact::look_for_late.
 void CornerSolver::look_for_late(const SolidContactStep& step, const KeptImpulses& before,
                                  double time, ContactReport& report) const {
   const double round_off = 1e-6 * finder_.deepest(), harmless = 0.1 * finder_.deepest();
-  const auto was_found = [&](const CornerRow& row) {
-    const std::uint64_t corner = row.key >> key_bits_of_edge;
-    const auto found = std::ranges::lower_bound(
-        before, corner, {}, [](const auto& kept) { return kept.first >> key_bits_of_edge; });
-    return found != before.end() && found->first >> key_bits_of_edge == corner;
-  };
   if (time < 1.25 * model_.dt) return;  // it may start so
   for (const CornerRow& row : rows_) {
     if (row.kind == ContactKind::facet || -row.gap <= std::max(report.late, harmless)) continue;
     const double gap_before = row.gap - step.plane.dt * row.before.x;
-    if (-gap_before <= round_off + model_.dt * std::abs(row.turning) || was_found(row)) continue;
-    if (came_round_an_end(row)) continue;
+    if (-gap_before <= round_off + model_.dt * std::abs(row.turning) ||
+        was_found(before, row.key) || came_round(row))
+      continue;
     report.late = -row.gap;
     report.late_at = row.point;
   }
@@ -321,7 +312,7 @@ void CornerSolver::add_active(const SolidContactStep& step, const CornerRow& row
   for (int i = 0; i < row.count; ++i) {
     const Vec3 push = step.ground.from_wheel(contact::transposed(row.block[at(i)], row.impulse));
     ActiveContact a;
-    a.candidate = at(candidate_[at(row.node[at(i)])]);
+    a.candidate = finder_.candidate_of(row.node[at(i)]);
     a.normal = row.kind == ContactKind::facet ? row.normal : -row.normal;
     a.gap = row.gap;
     a.before = row.before;

@@ -44,7 +44,7 @@ class CornerSolver {
   [[nodiscard]] Vec3 arm_of(const State& state, std::size_t node) const noexcept;
   void look_for_late(const SolidContactStep& step, const contact::KeptImpulses& before, double time,
                      ContactReport& report) const;
-  [[nodiscard]] bool came_round_an_end(const CornerRow& row) const noexcept;
+  [[nodiscard]] bool came_round(const CornerRow& row) const noexcept;
   contact::CoupledResult solve_problem(const SolidContactStep& step,
                                        const contact::KeptImpulses& before, Rows rows,
                                        const State& state, ContactReport& report);
@@ -61,7 +61,6 @@ class CornerSolver {
   const Model& model_;
   CornerFinder finder_;
   const contact::CoupledLimits limits_;
-  std::vector<int> candidate_;  ///< (n) place in ContactModel::nodes, -1: none
   std::vector<CornerRow> rows_;
   std::vector<int> node_start_, nodes_;
   contact::ClusterFinder cluster_finder_;

@@ -34,7 +34,7 @@ std::vector<std::vector<NodalLoad>> loads_of(const Model& model) {
   std::vector<std::vector<NodalLoad>> loads;
   if (model.pressures.empty()) return loads;
   loads.resize(model.contact->nodes.size());
-  const std::vector<int> place = places_of_candidates(model);
+  const std::vector<int> place = places_among(model.contact->nodes, model.n_nodes());
   for (const NodalLoad& l : nodal_loads(model))
     if (place[at(l.node)] >= 0) loads[at(place[at(l.node)])].push_back(l);
   return loads;

@@ -11,13 +11,6 @@
 
 namespace rondo::dynamics {
 
-std::vector<int> places_of_candidates(const Model& model) {
-  std::vector<int> place(model.n_nodes(), -1);
-  const std::vector<int>& nodes = model.contact->nodes;
-  for (std::size_t i = 0; i < nodes.size(); ++i) place[at(nodes[i])] = static_cast<int>(i);
-  return place;
-}
-
 namespace {
 
 Model boundary_of(const Model& model) {
@@ -41,7 +34,7 @@ Model boundary_of(const Model& model) {
   }
   RONDO_DEMAND(b.dt > 0.0 && b.contact->tributary.size() == nodes.size(), b.dt,
                b.contact->tributary.size(), nodes.size());
-  const std::vector<int> place = places_of_candidates(model);
+  const std::vector<int> place = places_among(model.contact->nodes, model.n_nodes());
   for (mesh::Edge& edge : b.contact->edges)
     for (int& node : edge) {
       node = place[at(node)];

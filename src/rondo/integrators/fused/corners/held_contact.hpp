@@ -41,9 +41,6 @@ class CandidateFields {
   ~CandidateFields() = default;
 };
 
-/// (n) place of each node among the candidates, -1: it is none.
-[[nodiscard]] std::vector<int> places_of_candidates(const Model& model);
-
 /// What corners hold, in the plane (corner_contact.hpp) and in three dimensions
 /// (solid_corner_contact.hpp).
 class HeldContact {
