@@ -100,6 +100,11 @@ def summary(directory):
     return json.loads((directory / "run.json").read_text())
 
 
+def settings(*all_of_them):
+    """--set of each: `key=value`."""
+    return [word for setting in all_of_them for word in ("--set", setting)]
+
+
 class ProgramTest(unittest.TestCase):
     """A test with a folder of its own."""
 
@@ -128,6 +133,10 @@ class RunTest(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(done.stdout, "")
         return done
+
+    def run_set(self, *given, text=None):
+        """Runs it with these settings; what it says on stderr."""
+        return self.run_ok(text, "--quiet", "--overwrite", *settings(*given)).stderr
 
 
 def corner_areas(places, cells):

@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 
-from program import ROOT, ProgramTest, history, run, summary
+from program import ROOT, RunTest, history, run, settings, summary
 from test_tyre_steady_nonlinear import RADIUS, rolling
 
 STEADY = (ROOT / "cases" / "wheel3d-steady.toml").read_text()
@@ -22,19 +22,12 @@ values = [0.001, 0.01]
 """
 
 
-def settings(*all_of_them):
-    return [word for setting in all_of_them for word in ("--set", setting)]
+class SlipStep(RunTest):
+    text = STEADY
 
-
-class SlipStep(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.out = self.folder / "out"
-
-    def of(self, *given, text=STEADY):
-        done = run("run", self.case(text), "-o", self.out, "--quiet", "--overwrite", *settings(*given))
-        self.assertEqual(done.returncode, 0, done.stderr)
-        return summary(self.out), done.stderr
+    def of(self, *given, text=None):
+        said = self.run_set(*given, text=text)
+        return summary(self.out), said
 
     def table(self):
         with open(self.out / "slip-step.csv", newline="") as file:

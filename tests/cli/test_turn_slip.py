@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-from program import ROOT, ProgramTest, history, run, summary
+from program import ROOT, RunTest, history, run, settings, summary
 from test_tyre import TyreTest
 from test_tyre_nonlinear import ALL
 from test_tyre_steady_nonlinear import RADIUS, rolling
@@ -34,18 +34,11 @@ MIRRORED = ("force_lateral", "moment_aligning", "moment_overturning", "moment_al
 STRAIGHT = "motion.slip_angle=0"
 
 
-def settings(*all_of_them):
-    return [word for setting in all_of_them for word in ("--set", setting)]
+class TurnSlip(RunTest):
+    text = STEADY
 
-
-class TurnSlip(ProgramTest):
-    def setUp(self):
-        super().setUp()
-        self.out = self.folder / "out"
-
-    def of(self, *given, text=STEADY):
-        done = run("run", self.case(text), "-o", self.out, "--quiet", "--overwrite", *settings(*given))
-        self.assertEqual(done.returncode, 0, done.stderr)
+    def of(self, *given, text=None):
+        self.run_set(*given, text=text)
         return summary(self.out)
 
     def steady(self, *given):
