@@ -139,7 +139,7 @@ class Resumed(RoadTest, ResumeTest):
         self.assertNotIn("road", written)
         total = (self.whole / "history.csv").read_bytes().count(b"\n")
         process = self.start(self.text)
-        self.assertTrue(self.wait_for_rows(process, 0.5 * total), "it ended before the kill")
+        self.assertTrue(self.wait_for_rows(process, 0.2 * total), "it ended before the kill")
         process.kill()
         process.wait()
         done = self.resume(self.text)
