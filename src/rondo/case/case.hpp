@@ -11,8 +11,10 @@
 
 #include "rondo/case/analysis_kinds.hpp"
 #include "rondo/case/inflation_case.hpp"
+#include "rondo/contact/friction_table.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/contact/law.hpp"
+#include "rondo/contact/obstacle.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/fem/elasticity.hpp"
 #include "rondo/mesh/disk.hpp"
@@ -120,7 +122,8 @@ struct RoadCase {
 struct GroundCase {
   contact::GroundShape shape;
   RoadCase road;
-  double friction = 0.0;     ///< μ >= 0
+  std::vector<contact::Obstacle> obstacles;
+  contact::FrictionTable friction;
   double restitution = 0.0;  ///< e in [0, 1]
   contact::Impact impact = contact::Impact::moreau;
 };

@@ -559,7 +559,7 @@ constexpr CaseKey keys[] = {
      "the height 0 of the file, with a step at the end"},
     {"ground.fillet", "m", FIELD(ground->shape.fillet), not_negative, optional.of(in_time_untold),
      "Radius that rounds all convex corners of the ground; 0: they are sharp"},
-    {"ground.friction", "-", FIELD(ground->friction), between(0, 100), optional.body(never),
+    {"ground.friction", "-", FIELD(ground->friction.coefficient), between(0, 100), optional.body(never),
      "Coulomb's coefficient of friction μ on the ground; 0: none"},
     {"ground.restitution", "-", FIELD(ground->restitution), between(0, 1),
      optional.of(in_time).body(never),

@@ -53,7 +53,7 @@ study::Case case_of(const study::Case& given, const Values& v) {
   study::Case c = given;
   c.time.end = 1e-6;
   c.rim = dynamics::RimBody{};
-  c.ground->friction = v.friction;
+  c.ground->friction.coefficient = v.friction;
   c.motion.start_x = v.hub_x_start;
   c.motion.speed = dynamics::Table(v.hub_velocity_x);
   c.motion.angular_velocity = dynamics::Table(v.hub_angular_velocity);

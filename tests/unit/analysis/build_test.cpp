@@ -184,7 +184,7 @@ TEST(Build, ATurnTooWideForTheContactLawIsRefused) {
   Case c = spinning(2, 24, 1.0);
   c.initial.state = InitialState::rest;
   c.motion.height = dynamics::Table(1.0);
-  c.ground.emplace().friction = 100.0;  // less than 0.02 rad a step
+  c.ground.emplace().friction.coefficient = 100.0;  // less than 0.02 rad a step
   const double dt = build(c, 1).model.dt, limit = 2.0 * std::atan(1.0 / 100.0);
   c.motion.angular_velocity = dynamics::Table(0.999 * limit / dt);
   EXPECT_NO_THROW(static_cast<void>(build(c, 1)));

@@ -110,7 +110,7 @@ TEST(SharedBody, ProbesOfABodyThatIsMoved) {
   const auto alone = build(c, 1);
   ASSERT_EQ(alone.probes.size(), 1U);
   for (const double friction : {0.1, 0.2}) {
-    c.ground->friction = friction;
+    c.ground->friction.coefficient = friction;
     const auto mine = build(c, 1, &shared);
     ASSERT_EQ(mine.probes.size(), 1U);
     EXPECT_EQ(mine.probes[0].cell, alone.probes[0].cell);

@@ -125,7 +125,7 @@ TEST(ReadCase, TakesEveryKeyOfTheRun) {
   const std::vector<Vec2> profile{{-10, -0.1}, {0, -0.1}, {0, 0}, {10, 0}};
   EXPECT_EQ(c.ground->shape.profile, profile);
   EXPECT_EQ(c.ground->shape.fillet, 0.02);
-  EXPECT_EQ(c.ground->friction, 0.3);
+  EXPECT_EQ(c.ground->friction.coefficient, 0.3);
   EXPECT_EQ(c.ground->restitution, 0.5);
   EXPECT_EQ(c.initial.state, InitialState::stationary);
   EXPECT_EQ(c.initial.velocity, (Vec2{1.5, 0.0}));
@@ -358,7 +358,7 @@ TEST(Settings, ReplaceAndAdd) {
       treaded(), {"ground.friction=0.6", "disk.tread.depth = 0.015", "material.plane=stress",
                   "motion.angular_velocity=[[0,0],[0.01,30]]", "title=Plane stress, μ = \"0.6\"",
                   "output.stress=false", "initial.velocity=[1, 2]", "solver.operator='sparse'"});
-  EXPECT_EQ(c.ground->friction, 0.6);
+  EXPECT_EQ(c.ground->friction.coefficient, 0.6);
   EXPECT_EQ(c.disk.tread->depth, 0.015);
   EXPECT_EQ(c.material.plane, fem::Plane::stress);
   EXPECT_EQ(c.motion.angular_velocity.at(0.005), 15.0);
@@ -369,7 +369,9 @@ TEST(Settings, ReplaceAndAdd) {
 }
 
 TEST(Settings, MakeTables) {
-  EXPECT_EQ(read_text(least, {"ground.profile=flat", "ground.friction=1"}).ground->friction, 1.0);
+  EXPECT_EQ(
+      read_text(least, {"ground.profile=flat", "ground.friction=1"}).ground->friction.coefficient,
+      1.0);
   const Case c = read_text(treaded(), {"disk.tread={pitches=7, depth=0.01, land_columns=1, "
                                        "groove_columns=1, layers=1}"});
   EXPECT_EQ(c.disk.tread->pitches, 7);

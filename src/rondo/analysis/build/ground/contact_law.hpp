@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The contact law that a case asks for: the one place where keys become a friction law.
+/// @file  The contact laws that a case asks for: the one place where keys become a friction law.
 #pragma once
 #include <array>
 
 #include "rondo/case/case.hpp"
 #include "rondo/contact/friction_laws.hpp"
+#include "rondo/contact/friction_table.hpp"
 #include "rondo/contact/law.hpp"
 
 namespace rondo::study {
 
-/// @param of GroundCase or BodyContactCase
-template <class Contact>
-[[nodiscard]] contact::Law law_of(const Contact& of) {
+[[nodiscard]] inline contact::Law law_of(const GroundCase& of) {
+  return {contact::friction_of(of.friction), of.restitution, of.impact};
+}
+
+[[nodiscard]] inline contact::Law law_of(const BodyContactCase& of) {
   return {contact::make_friction("constant", std::array{of.friction}), of.restitution, of.impact};
 }
 

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/contact/friction_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace rondo::contact {
+namespace {
+
+/// Pressures count between p_ref over this and p_ref times this.
+constexpr double pressure_range = 10.0;
+
+/// A factor with its derivative.
+struct Factor {
+  double value = 1.0, slope = 0.0;
+};
+
+Factor slip_factor(const std::vector<SlipFactor>& table, double speed) noexcept {
+  if (table.empty()) return {};
+  const auto after = std::ranges::upper_bound(table, speed, {}, &SlipFactor::speed);
+  if (after == table.begin()) return {.value = table.front().factor};
+  if (after == table.end()) return {.value = table.back().factor};
+  const SlipFactor &low = *std::prev(after), &high = *after;
+  const double slope = (high.factor - low.factor) / (high.speed - low.speed);
+  return {low.factor + slope * (speed - low.speed), slope};
+}
+
+Factor pressure_factor(const FrictionTable& table, double pressure) noexcept {
+  if (table.pressure_exponent == 0.0) return {};
+  const double ratio = pressure / table.pressure_reference;
+  const double within = std::clamp(ratio, 1.0 / pressure_range, pressure_range);
+  const double value = std::pow(within, table.pressure_exponent);
+  const bool moves = ratio >= 1.0 / pressure_range && ratio < pressure_range;
+  return {value, moves ? table.pressure_exponent * value / pressure : 0.0};
+}
+
+/// How much of a node at `lateral` lies on a side: 0, a half or 1.
+double share_on(Side side, double lateral) noexcept {
+  if (side == Side::both) return 1.0;
+  if (lateral == 0.0) return 0.5;
+  return (lateral < 0.0) == (side == Side::left) ? 1.0 : 0.0;
+}
+
+}  // namespace
+
+bool FrictionTable::is_constant() const noexcept {
+  return pressure_exponent == 0.0 &&
+         std::ranges::all_of(slip,
+                             [&](const SlipFactor& s) { return s.factor == slip[0].factor; }) &&
+         std::ranges::all_of(patches, [](const FrictionPatch& p) { return p.factor == 1.0; });
+}
+
+double patch_factor(const FrictionTable& table, const Vec3& place) noexcept {
+  double factor = 1.0;
+  for (const FrictionPatch& patch : table.patches)
+    if (place.x >= patch.from && place.x < patch.to)
+      factor *= 1.0 + share_on(patch.side, place.z) * (patch.factor - 1.0);
+  return factor;
+}
+
+FrictionValue friction_at(const FrictionTable& table, const SlidingState& of) noexcept {
+  const Factor slip = slip_factor(table.slip, of.slip);
+  const Factor pressure = pressure_factor(table, of.pressure);
+  const double scale = table.coefficient * patch_factor(table, of.place);
+  return {scale * slip.value * pressure.value, scale * slip.slope * pressure.value,
+          scale * slip.value * pressure.slope};
+}
+
+Friction friction_of(FrictionTable table) {
+  if (table.is_constant()) return friction_at(table, {}).coefficient;
+  const auto shared = std::make_shared<const FrictionTable>(std::move(table));
+  return Friction(
+      [shared](const SlidingState& of) { return friction_at(*shared, of).coefficient; });
+}
+
+}  // namespace rondo::contact

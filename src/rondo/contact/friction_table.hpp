@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The coefficient of friction by tables: over the slip speed, by a power of the pressure,
+/// and by patches of the ground (docs/roads.md). μ = μ_0 f(|w_t|) (p/p_ref)^k times the factors of
+/// the patches at that place.
+#pragma once
+#include <vector>
+
+#include "rondo/contact/friction.hpp"
+
+namespace rondo::contact {
+
+/// Where across the track a patch is, seen along t1: t2 points to the right.
+enum class Side { both, left, right };
+
+/// A stretch of the ground with another surface: from <= x < to.
+struct FrictionPatch {
+  double from = 0.0, to = 0.0;  ///< along t1                                             [m]
+  Side side = Side::both;  ///< left: t2 < 0, right: t2 > 0. On the border between both, t2 = 0,
+                           ///< the factor counts by half, as half of a node lies on the patch
+  double factor = 1.0;     ///< >= 0, of the coefficient                             [-]
+};
+
+/// A point of a table.
+struct SlipFactor {
+  double speed = 0.0;   ///< |w_t|, >= 0                                                  [m/s]
+  double factor = 1.0;  ///< >= 0, of the coefficient                                     [-]
+};
+
+struct FrictionTable {
+  double coefficient = 0.0;           ///< μ_0: at factor 1, and at the reference pressure  [-]
+  std::vector<SlipFactor> slip;       ///< ascending speeds, linear between, the end values beyond;
+                                      ///< none: factor 1
+  double pressure_exponent = 0.0;     ///< k                                                [-]
+  double pressure_reference = 2.0e5;  ///< p_ref > 0; p counts from p_ref/10 to 10 p_ref    [Pa]
+  std::vector<FrictionPatch> patches;
+
+  /// The same at every place, slip speed and pressure.
+  [[nodiscard]] bool is_constant() const noexcept;
+};
+
+/// μ with its derivatives by the slip speed and the pressure. At a corner of the tables they are
+/// those of the piece above.
+struct FrictionValue {
+  double coefficient = 0.0;  ///< [-]
+  double by_slip = 0.0;      ///< [s/m]
+  double by_pressure = 0.0;  ///< [1/Pa]
+};
+
+/// Allocates nothing.
+[[nodiscard]] FrictionValue friction_at(const FrictionTable& table,
+                                        const SlidingState& of) noexcept;
+
+/// The product of the factors of all patches at a place.
+[[nodiscard]] double patch_factor(const FrictionTable& table, const Vec3& place) noexcept;
+
+/// The law of a table; a constant where the table is one.
+[[nodiscard]] Friction friction_of(FrictionTable table);
+
+}  // namespace rondo::contact
