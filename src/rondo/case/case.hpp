@@ -120,9 +120,12 @@ struct RoadCase {
 };
 
 struct GroundCase {
-  contact::GroundShape shape;
+  std::vector<Vec2> profile = contact::GroundShape{}.profile;  ///< without the obstacles     [m]
+  double fillet = 0.0;                                         ///< of the profile            [m]
   RoadCase road;
   std::vector<contact::Obstacle> obstacles;
+  /// The profile with the obstacles that lie straight across: the reader makes it.
+  contact::GroundShape shape;
   contact::FrictionTable friction;
   double restitution = 0.0;  ///< e in [0, 1]
   contact::Impact impact = contact::Impact::moreau;
@@ -288,8 +291,12 @@ inline bool is_generated(const Case& c) {
 }
 
 /// The key that gives the ground its shape. @pre there is ground
-inline const char* ground_key(const Case& c) {
+inline const char* base_ground_key(const Case& c) {
   return c.ground->road.read ? "ground.road" : "ground.profile";
+}
+/// The key that changes the shape of the ground last: the one of its obstacles, if there are any.
+inline const char* ground_key(const Case& c) {
+  return c.ground->obstacles.empty() ? base_ground_key(c) : "ground.obstacle";
 }
 
 /// The Gmsh file that the body comes from; null: it is generated.

@@ -83,6 +83,9 @@ bool region_has_loss_factor(const Case& c, std::size_t k) {
 bool region_is_rubber(const Case& c, std::size_t k) {
   return c.regions[k].law.is_rubber();
 }
+bool obstacle_has_length(const Case& c, std::size_t k) {
+  return c.ground->obstacles[k].kind != contact::ObstacleKind::step;
+}
 /// A linear region beside rubber has none.
 bool region_has_branches(const Case& c, std::size_t k) {
   const MaterialLaw& law = c.regions[k].law;
@@ -538,8 +541,7 @@ constexpr CaseKey keys[] = {
      optional.if_(has_free_y).said("the center's height at t = 0").body(never),
      "Height of the center at which the spring along y exerts no force"},
 
-    {"ground.profile", "m", FIELD(ground->shape.profile), any,
-     optional.said("required, or ground.road"),
+    {"ground.profile", "m", FIELD(ground->profile), any, optional.said("required, or ground.road"),
      "Surface of the ground: the line y = 0, a polyline, or a CSV file of its points, relative to "
      "the case file's directory. The `case.toml` of the results contains the points"},
     {"ground.road", "-", FIELD(ground->road.file), any, optional.if_(never, "none").body(never),
@@ -557,10 +559,10 @@ constexpr CaseKey keys[] = {
      optional.if_(never, "that of the file, else \"keep\"").body(never),
      "Level ground before and behind the road. \"keep\": at the height of its end. \"zero\": at "
      "the height 0 of the file, with a step at the end"},
-    {"ground.fillet", "m", FIELD(ground->shape.fillet), not_negative, optional.of(in_time_untold),
+    {"ground.fillet", "m", FIELD(ground->fillet), not_negative, optional.of(in_time_untold),
      "Radius that rounds all convex corners of the ground; 0: they are sharp"},
-    {"ground.friction", "-", FIELD(ground->friction.coefficient), between(0, 100), optional.body(never),
-     "Coulomb's coefficient of friction μ on the ground; 0: none"},
+    {"ground.friction", "-", FIELD(ground->friction.coefficient), between(0, 100),
+     optional.body(never), "Coulomb's coefficient of friction μ on the ground; 0: none"},
     {"ground.restitution", "-", FIELD(ground->restitution), between(0, 1),
      optional.of(in_time).body(never),
      "Newton's coefficient of restitution e of each node's impact on the ground; 0: a node that "
@@ -571,6 +573,22 @@ constexpr CaseKey keys[] = {
      "goes on with -e w_n⁻. \"energy-safe\": a node that leaves while it is pulled back goes on "
      "with -w_n⁻; no impact then creates energy at any step, but more is lost "
      "([theory.md](theory.md), 4.3)"},
+
+    {"ground.obstacle[].kind", "-", FIELD(ground->obstacles[k].kind),
+     one_from("cleat", "step", "pothole"), required.body(never),
+     "Obstacle on the ground, whose height it adds to. \"cleat\": a bar of rectangular section. "
+     "\"step\": behind it the ground goes on at another level. \"pothole\": a trough of "
+     "rectangular section ([roads.md](roads.md#4-obstacles))"},
+    {"ground.obstacle[].at", "m", FIELD(ground->obstacles[k].at), any, required.body(never),
+     "Position x of its first edge, for a wheel with a width where that crosses the middle of the "
+     "track"},
+    {"ground.obstacle[].height", "m", FIELD(ground->obstacles[k].height), any, required.body(never),
+     "Height of a cleat; of a step, < 0: down; depth of a pothole, > 0"},
+    {"ground.obstacle[].length", "m", FIELD(ground->obstacles[k].length), positive,
+     required.if_item(obstacle_has_length, "required, not for a step").body(never),
+     "Length of a cleat or a pothole, normal to its edges"},
+    {"ground.obstacle[].fillet", "m", FIELD(ground->obstacles[k].fillet), not_negative,
+     optional.body(never), "Radius that rounds its convex edges; 0: they are sharp"},
 
     {"contact.between", "-", FIELD(body_contact.between), one_from("none", "bodies", "all"),
      optional,

@@ -5,6 +5,7 @@
 
 #include "rondo/case/case.hpp"
 #include "rondo/case/case_rules.hpp"
+#include "rondo/case/ground/ground_shape.hpp"
 #include "rondo/case/road_ground.hpp"
 #include "rondo/core/index.hpp"
 
@@ -115,6 +116,7 @@ Case read_source(const std::filesystem::path& file, CaseSource source) {
   take_road(in, c);
   require_keys(in, c);
   refuse_keys_of_others(in, c);
+  make_shape(in, c);
   check_analysis(in, c);
   const std::string left_out = leave_out(in, c);
   check_case(in, c);

@@ -112,18 +112,19 @@ void check_ground(CaseValues& in, const Case& c) {
   if (!c.ground) return;
   const MeshCase* const file = mesh_file_of(c);
   if (file && file->contact.empty())
-    in.fault(ground_key(c), "no part of the mesh may touch the ground",
+    in.fault(base_ground_key(c), "no part of the mesh may touch the ground",
              fmt::format("{}.contact = \"tread\" beside it, a physical curve; {}",
                          c.mesh ? "mesh" : "section", mesh::physical_group_line("Curve", "tread")));
   if (!in.good({"ground", "ground.profile", "ground.road", "ground.fillet"})) return;
-  for (const contact::ShapeFault& fault : contact::shape_faults(c.ground->shape)) {
+  const contact::GroundShape base{c.ground->profile, c.ground->fillet};
+  for (const contact::ShapeFault& fault : contact::shape_faults(base)) {
     if (fault.about_fillet && in.has("ground.fillet"))
       in.fault("ground.fillet", fault.message);
     else if (c.ground->road.read && fault.point >= 0)
       in.fault("ground.road", fmt::format("{}, at x = {:.6g} m", fault.message,
-                                          c.ground->shape.profile[at(fault.point)].x));
+                                          c.ground->profile[at(fault.point)].x));
     else
-      in.fault_at_item(ground_key(c), fault.point, fault.message);
+      in.fault_at_item(base_ground_key(c), fault.point, fault.message);
   }
 }
 

@@ -62,6 +62,10 @@ constexpr CaseTable tables[] = {
     {"rim.support.y", with_rim, nullptr, in_time_untold},
     {"ground", [](const Case& c) -> std::size_t { return c.ground ? 1 : 0; },
      [](Case& c, std::size_t n) { set_there(c.ground, n); }},
+    {"ground.obstacle[]", [](const Case& c) { return c.ground ? c.ground->obstacles.size() : 0; },
+     [](Case& c, std::size_t n) {
+       if (c.ground) c.ground->obstacles.resize(n);
+     }},
     {"contact", one, nullptr, in_time_untold},
     {"load.pressure[]", [](const Case& c) { return c.pressures.size(); },
      [](Case& c, std::size_t n) { c.pressures.resize(n); }, in_motion_untold},

@@ -121,9 +121,9 @@ void make_points(CaseValues& in, GroundCase& ground) {
                     "another ground.road_offset; or GRID_NAN_MODE = 2 in the file, which fills "
                     "missing heights");
   road.height = road::height_in(rows, *road.start);
-  ground.shape.profile.clear();
+  ground.profile.clear();
   for (const Vec2 p : road::with_level_ends(rows, surface, road.offset))
-    ground.shape.profile.push_back({p.x - *road.start, p.y - road.height});
+    ground.profile.push_back({p.x - *road.start, p.y - road.height});
 }
 
 }  // namespace

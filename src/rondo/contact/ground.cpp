@@ -34,7 +34,7 @@ constexpr double closest = 1e-100;  ///< points nearer than this have no directi
 double fillet_reach(const GroundShape& shape, std::size_t i) {
   if (i == 0 || i + 1 == shape.profile.size()) return 0.0;
   const double turn = turn_at(shape.profile, i);
-  return turn < -straight ? shape.fillet * std::tan(-0.5 * turn) : 0.0;
+  return turn < -straight ? shape.radius_at(i) * std::tan(-0.5 * turn) : 0.0;
 }
 
 std::vector<ShapeFault> point_faults(const std::vector<Vec2>& p) {
@@ -63,6 +63,7 @@ std::vector<ShapeFault> point_faults(const std::vector<Vec2>& p) {
 std::vector<ShapeFault> fillet_faults(const GroundShape& shape) {
   std::vector<ShapeFault> faults;
   const auto& p = shape.profile;
+  RONDO_DEMAND(shape.radii.empty() || shape.radii.size() == p.size(), shape.radii.size(), p.size());
   if (!(shape.fillet >= 0.0)) return {{-1, true, "must be >= 0"}};
   if (!(shape.fillet <= farthest))
     return {{-1, true, fmt::format("must be at most {:.0e} m", farthest)}};
@@ -126,7 +127,7 @@ void Ground::add_bend(const GroundShape& shape, std::size_t i) {
             .tangent = before.tangent,
             .normal = before.normal,
             .center = {}};
-  arc.radius = shape.fillet;
+  arc.radius = shape.radius_at(i);
   arc.center = arc.begin - arc.radius * arc.normal;
   arc.to = -turn_at(p, i) * arc.radius;
   arc.start_length = length_so_far();

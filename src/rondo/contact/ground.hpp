@@ -19,6 +19,10 @@ namespace rondo::contact {
 struct GroundShape {
   std::vector<Vec2> profile{{-1.0, 0.0}, {1.0, 0.0}};  ///< (>= 2) corners, left to right    [m]
   double fillet = 0.0;                                 ///< radius at convex corners, 0: sharp [m]
+  std::vector<double> radii{};  ///< (points) in place of `fillet`, if there are any           [m]
+
+  /// The radius at a point of the profile if that is a convex corner [m].
+  [[nodiscard]] double radius_at(std::size_t i) const { return radii.empty() ? fillet : radii[i]; }
 };
 
 /// Something wrong with a shape; `point` is the index of the profile's point it is about, or -1.

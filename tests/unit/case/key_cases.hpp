@@ -21,6 +21,7 @@ inline const std::vector<Case>& cases_with_every_key() {
     std::vector<std::string> latin = crush;
     latin.emplace_back("analysis.solver=latin-pgd");
     const std::vector<std::string> probe{"output.probe=[{name = 'p', position = [0.2, 0.0]}]"},
+        obstacle{"ground.obstacle=[{kind = 'cleat', at = 2.0, height = 0.1, length = 0.3}]"},
         pressure{"load.pressure=[{curve = 'rim', value = 3}]",
                  "material.region=[{layers = [2, 3], density = 7800}]",
                  "solver.implicit=[{slower_than = 1e-6}]"},
@@ -120,6 +121,7 @@ end = 0.2
         by_bulk{"material.region=[{layers = [1], bulk_modulus = 3e7, c10 = 1e5}]"};
     return std::vector<Case>{
         read_text(base, probe),
+        read_text(base, obstacle),
         read_text(treaded(), pressure),
         read_text(with_line(34, "step = 1e-6")),
         read_text(bodies),

@@ -16,8 +16,7 @@ namespace has = dynamics::has;
 
 /// Sharp convex corners may touch the body between two nodes.
 bool has_sharp_corners(const Case& c) {
-  return c.ground && c.ground->shape.fillet == 0.0 &&
-         contact::shape_faults(c.ground->shape).empty() &&
+  return c.ground && contact::shape_faults(c.ground->shape).empty() &&
          !contact::Ground(c.ground->shape).corners().empty();
 }
 

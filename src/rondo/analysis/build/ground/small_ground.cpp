@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "rondo/case/ground/ground_shape.hpp"
 #include "rondo/contact/intrusion.hpp"
 
 namespace rondo::study {
@@ -22,15 +25,18 @@ std::string small_obstacle(const Case& c, const contact::Ground& ground) {
       ground_key(c), obstacle.depth, obstacle.at.x, obstacle.at.y, spacing, where_they_are);
 }
 
-std::string small_fillet(const contact::Ground& ground, double fillet) {
+std::string small_fillet(const Case& c, const contact::Ground& ground) {
   const double spacing = ground.spacing();
-  if (!(fillet > 0.0 && fillet < spacing) || ground.corners().empty()) return {};
-  const Vec2 first = ground.corners()[0].position;
+  const auto round = std::ranges::find_if(
+      ground.corners(), [](const contact::Corner& corner) { return corner.radius > 0.0; });
+  if (round == ground.corners().end()) return {};
+  const double fillet = round->radius;
+  const Vec2 first = round->position;
   return fmt::format(
-      "ground.fillet: the radius of {:.3g} m is below the {:.3g} m between two contact nodes, and "
+      "{}: the radius of {:.3g} m is below the {:.3g} m between two contact nodes, and "
       "the corner at ({:.6g}, {:.6g}) m counts as sharp: {}; give a fillet of at least {:.3g} m, "
       "or a finer mesh",
-      fillet, spacing, first.x, first.y, where_they_are, spacing);
+      fillet_key(c, fillet), fillet, spacing, first.x, first.y, where_they_are, spacing);
 }
 
 }  // namespace
@@ -39,7 +45,7 @@ std::string small_ground(const Case& c, const Setup& s) {
   if (!s.model.contact || !(s.model.contact->ground.spacing() > 0.0)) return {};
   const contact::Ground& ground = s.model.contact->ground;
   std::string told = small_obstacle(c, ground);
-  return told.empty() ? small_fillet(ground, c.ground->shape.fillet) : told;
+  return told.empty() ? small_fillet(c, ground) : told;
 }
 
 }  // namespace rondo::study

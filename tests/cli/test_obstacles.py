@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Obstacles on the ground: those of a profile drawn by hand, at an angle, and what they refuse."""
+import unittest
+
+from program import ROOT, SMALL, ProgramTest, run, summary
+from test_resume import RESULTS, ResumeTest
+
+CLEAT = "ground.obstacle=[{kind = 'cleat', at = 0.05, height = 0.01, length = 0.02}]"
+DRAWN = "ground.profile=[[-1, 0], [0.05, 0], [0.05, 0.01], [0.07, 0.01], [0.07, 0], [1, 0]]"
+WHEEL = (ROOT / "cases" / "wheel3d-cleat-sharp.toml").read_text()
+FLAT = "ground.profile='flat'"
+
+
+def settings(*values):
+    return [x for value in values for x in ("--set", value)]
+
+
+class OfAProfile(ProgramTest):
+    def bits(self, text, *values):
+        out = self.folder / "out"
+        done = run("run", self.case(text), "-o", out, "--quiet", "--overwrite", *settings(*values))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess(summary(out)["energy_residual_relative"], 1e-12)
+        return (out / "history.csv").read_bytes()
+
+    def test_a_cleat_has_the_bits_of_the_profile_drawn_by_hand(self):
+        drawn = self.bits(SMALL, DRAWN)
+        self.assertEqual(self.bits(SMALL, CLEAT), drawn)
+        self.assertNotEqual(self.bits(SMALL), drawn)
+        fillet = CLEAT.replace("}", ", fillet = 0.004}")
+        rounded = self.bits(SMALL, DRAWN, "ground.fillet=0.004")
+        self.assertEqual(self.bits(SMALL, fillet), rounded)
+        self.assertNotEqual(rounded, drawn)
+
+    def test_so_has_one_of_a_wheel_with_a_width(self):
+        cleat = CLEAT.replace("0.05", "0.3")
+        self.assertEqual(self.bits(WHEEL, FLAT, cleat, "time.end=0.06"),
+                         self.bits(WHEEL, "time.end=0.06"))
+
+    def test_several_stand_on_a_profile(self):
+        both = ("ground.obstacle=[{kind = 'step', at = 0.12, height = -0.005}, "
+                "{kind = 'pothole', at = 0.05, height = 0.01, length = 0.03}]")
+        drawn = ("ground.profile=[[-1, 0], [0, 0.0], [0.05, 0], [0.05, -0.01], [0.08, -0.01], [0.08, 0.0], "
+                 "[0.1, 0.0], [0.12, 0.0], [0.12, -0.005], [1, -0.005]]")
+        base = "ground.profile=[[-1, 0], [0, 0.0], [0.1, 0.0], [1, 0]]"
+        self.assertEqual(self.bits(SMALL, base, both), self.bits(SMALL, drawn))
+
+
+class Refused(ProgramTest):
+    def refused(self, text, *values):
+        done = run("check", self.case(text), *settings(*values))
+        self.assertEqual(done.returncode, 2, done.stdout)
+        return done.stderr
+
+    def test_what_is_no_obstacle_says_so_at_its_key(self):
+        for old, new, said in (
+                ("height = 0.01", "height = -0.01", "ground.obstacle[0].height"),
+                ("height = 0.01, ", "", "ground.obstacle[0].height"),
+                (", length = 0.02", "", "ground.obstacle[0].length"),
+                ("'cleat'", "'bump'", '"cleat", "step" or "pothole"'),
+                ("'cleat'", "'step'", "a step has no length"),
+                ("0.01, length = 0.02", "0.02, length = 0.02, fillet = 0.011", "it needs 0.022 m of the length of 0.02 m"),
+                ("}", ", width = 0.3}", "ground.obstacle[0].width")):
+            with self.subTest(new):
+                self.assertIn(said, self.refused(SMALL, CLEAT.replace(old, new)))
+
+    def test_obstacles_that_overlap_say_where(self):
+        two = CLEAT.replace("]", ", {kind = 'step', at = 0.06, height = 0.01}]")
+        self.assertIn("begins within the obstacle from x = 0.05 to 0.07 m", self.refused(SMALL, two))
+
+    def test_steady_rolling_and_a_start_in_it_need_flat_ground(self):
+        steady = (ROOT / "cases" / "steady-rolling.toml").read_text()
+        said = self.refused(steady, CLEAT)
+        self.assertIn("ground.obstacle: steady rolling needs flat ground", said)
+
+    def test_a_small_fillet_is_told_of_by_its_own_key(self):
+        small = "ground.obstacle=[{kind = 'step', at = 0.25, height = 0.02, fillet = 0.004}]"
+        done = run("check", self.case(SMALL), *settings(small))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("warning: ground.obstacle[0].fillet: the radius of 0.004 m", done.stderr)
+
+
+class Resumed(ResumeTest):
+    def test_the_case_of_the_results_has_the_obstacles(self):
+        self.leave_alone(SMALL, *settings(CLEAT))
+        written = (self.whole / "case.toml").read_text()
+        self.assertIn("[[ground.obstacle]]", written)
+        again = run("run", self.whole / "case.toml", "-o", self.out, "--quiet")
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assert_same(self.out, RESULTS)
+        other = run("run", self.case(SMALL), "-o", self.whole, "--resume",
+                    *settings(CLEAT.replace("0.01", "0.011"), "time.end=0.03"))
+        self.assert_refused(other, 2, "ground.obstacle", "the run to resume has another value")
+
+
+if __name__ == "__main__":
+    unittest.main()
