@@ -299,6 +299,12 @@ inline const char* ground_key(const Case& c) {
   return c.ground->obstacles.empty() ? base_ground_key(c) : "ground.obstacle";
 }
 
+/// Whether the friction of the ground is written as a table, not as a number.
+inline bool has_friction_table(const Case& c) {
+  return c.ground &&
+         (!c.ground->friction.slip.empty() || c.ground->friction.pressure_exponent != 0.0);
+}
+
 /// The Gmsh file that the body comes from; null: it is generated.
 inline const MeshCase* mesh_file_of(const Case& c) {
   return c.mesh ? &*c.mesh : c.section ? &c.section->mesh : nullptr;

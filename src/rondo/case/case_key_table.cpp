@@ -168,6 +168,9 @@ bool has_slide(const Case& c) {
 bool is_lifted(const Case& c, std::size_t k) {
   return c.cords[k].green_radius.has_value();
 }
+bool has_constant_friction(const Case& c) {
+  return !has_friction_table(c);
+}
 bool has_rest_spin(const Case& c) {
   return c.inflation && c.inflation->spin;
 }
@@ -561,8 +564,11 @@ constexpr CaseKey keys[] = {
      "the height 0 of the file, with a step at the end"},
     {"ground.fillet", "m", FIELD(ground->fillet), not_negative, optional.of(in_time_untold),
      "Radius that rounds all convex corners of the ground; 0: they are sharp"},
-    {"ground.friction", "-", FIELD(ground->friction.coefficient), between(0, 100),
-     optional.body(never), "Coulomb's coefficient of friction μ on the ground; 0: none"},
+    {"ground.friction", "-", FIELD(ground->friction.coefficient),
+     with(between(0, 100), "or a table [ground.friction]"),
+     optional.if_(has_constant_friction).body(never),
+     "Coulomb's coefficient of friction μ on the ground; 0: none. A table in its place gives μ "
+     "over slip speed and pressure ([roads.md](roads.md))"},
     {"ground.restitution", "-", FIELD(ground->restitution), between(0, 1),
      optional.of(in_time).body(never),
      "Newton's coefficient of restitution e of each node's impact on the ground; 0: a node that "
@@ -589,6 +595,36 @@ constexpr CaseKey keys[] = {
      "Length of a cleat or a pothole, normal to its edges"},
     {"ground.obstacle[].fillet", "m", FIELD(ground->obstacles[k].fillet), not_negative,
      optional.body(never), "Radius that rounds its convex edges; 0: they are sharp"},
+
+    {"ground.friction.coefficient", "-", FIELD(ground->friction.coefficient), between(0, 100),
+     required.if_(has_friction_table, "required").body(never),
+     "Coefficient of friction μ where all factors are 1. A `--set` or a sweep of a key of this "
+     "table takes a number `ground.friction` of the file as the coefficient, and one of "
+     "`ground.friction` replaces the whole table"},
+    {"ground.friction.slip_speed", "m/s, -", FIELD(ground->friction.slip),
+     with(any, "speeds >= 0 and increasing, factors 0 to 100"),
+     optional.if_(has_friction_table, "factor 1").body(never),
+     "Factor of μ over the slip speed, [[speed, factor], ...]: linear between the points, and "
+     "beyond them that of the first and the last one"},
+    {"ground.friction.pressure_exponent", "-", FIELD(ground->friction.pressure_exponent),
+     between(-1, 1), optional.if_(has_friction_table, "0.0").body(never),
+     "Exponent k of the factor (p/p_ref)^k of μ over the pressure p, which counts from a tenth of "
+     "`pressure_reference` to ten times that; < 0: higher pressure, less friction, as for rubber"},
+    {"ground.friction.pressure_reference", "Pa", FIELD(ground->friction.pressure_reference),
+     positive, optional.if_(has_friction_table, "2e+05").body(never),
+     "Pressure p_ref at which the factor of the pressure is 1"},
+
+    {"ground.patch[].from", "m", FIELD(ground->friction.patches[k].from), any, required.body(never),
+     "Place x where a stretch of the ground with another friction begins"},
+    {"ground.patch[].to", "m", FIELD(ground->friction.patches[k].to), with(any, "more than from"),
+     required.body(never), "Place x where that stretch ends"},
+    {"ground.patch[].side", "-", FIELD(ground->friction.patches[k].side),
+     one_from("both", "left", "right"), optional.body(never),
+     "Side of the middle plane of a wheel in three dimensions, seen along its motion towards +x; a "
+     "node in the middle plane counts by half. For plane bodies \"both\""},
+    {"ground.patch[].factor", "-", FIELD(ground->friction.patches[k].factor), between(0, 100),
+     required.body(never),
+     "Factor of μ on that stretch; where patches overlap, their factors are multiplied"},
 
     {"contact.between", "-", FIELD(body_contact.between), one_from("none", "bodies", "all"),
      optional,

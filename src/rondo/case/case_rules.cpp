@@ -297,6 +297,7 @@ void check_case(CaseValues& in, Case& c) {
   check_motion(in, c);
   check_rim(in, c);
   check_ground(in, c);
+  check_friction(in, c);
   check_body_contact(in, c);
   check_initial(in, c);
   check_time(in, c);

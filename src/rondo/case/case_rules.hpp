@@ -31,6 +31,9 @@ void check_solid(CaseValues& in, Case& c);
 /// Rules of [inflation] and [[cords]].
 void check_inflation(CaseValues& in, Case& c);
 
+/// Rules of friction on the ground that is no constant, and the analyses that cannot take it.
+void check_friction(CaseValues& in, const Case& c);
+
 /// Rules of [rim]; sets the rest positions of its supports if the case does not give them.
 void check_rim(CaseValues& in, Case& c);
 

@@ -206,6 +206,16 @@ void remove_rivals_of_ground(CaseSource& from, std::string_view path) {
   });
 }
 
+/// A setting of one key of the table of friction makes a number in its place the coefficient.
+void open_friction(CaseSource& from, std::string_view path) {
+  const std::string table = "ground.friction";
+  const auto number = from.values.find(table);
+  if (!path.starts_with(table + ".") || number == from.values.end()) return;
+  from.tables[table] = number->second.place;
+  from.values[table + ".coefficient"] = number->second;
+  from.values.erase(table);
+}
+
 /// A setting of one of several exclusive keys replaces the others in the file.
 void remove_rivals(CaseSource& from, std::string_view path) {
   static const std::vector<std::string_view> step{"time.step", "time.safety"},
@@ -302,6 +312,7 @@ void apply_setting(CaseSource& into, const std::string& setting) {
   const std::string text = setting.substr(equals + 1);
   into.sources.push_back(source_text(name, "v = " + text));
   const toml::table parsed = parsed_setting(text);
+  open_friction(into, path);
   remove(into, path);
   remove_rivals(into, path);
   remove_rivals_of_ground(into, path);

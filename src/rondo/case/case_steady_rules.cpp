@@ -72,7 +72,7 @@ void check_given(CaseValues& in) {
 void check_traction(CaseValues& in, const Case& c) {
   const AnalysisCase& a = c.analysis;
   if (!a.load || !a.traction || !c.ground || !in.good({"ground.friction"})) return;
-  const double most = c.ground->friction.coefficient * *a.load;
+  const double most = contact::largest_friction(c.ground->friction) * *a.load;
   if (!(std::abs(*a.traction) < most))
     in.fault("analysis.traction",
              "the whole contact would slide, which does not determine the speed",
@@ -91,7 +91,7 @@ void check_samples(CaseValues& in, Case& c) {
     a.samples_per_sector = treaded ? 8 : c.section && !c.inflation ? 2 : 4;
   if (c.inflation && !in.has("analysis.inertia")) a.inertia = RollingMasses::waves;
   if (c.inflation && !in.has("analysis.estimate_slip_error")) a.estimate_slip_error = true;
-  const bool rubs = !c.ground || c.ground->friction.coefficient > 0.0;
+  const bool rubs = !c.ground || contact::largest_friction(c.ground->friction) > 0.0;
   if (c.inflation && rubs && a.samples_per_sector == 1)
     c.warnings.emplace_back(
         "analysis.samples_per_sector = 1: a node that is seen closed for the first time counts as "

@@ -15,6 +15,10 @@ std::size_t with_rim(const Case& c) {
   return c.rim ? 1 : 0;
 }
 
+std::size_t with_ground(const Case& c) {
+  return c.ground ? 1 : 0;
+}
+
 std::size_t with_inflation(const Case& c) {
   return c.inflation ? 1 : 0;
 }
@@ -65,6 +69,12 @@ constexpr CaseTable tables[] = {
     {"ground.obstacle[]", [](const Case& c) { return c.ground ? c.ground->obstacles.size() : 0; },
      [](Case& c, std::size_t n) {
        if (c.ground) c.ground->obstacles.resize(n);
+    {"ground", with_ground, [](Case& c, std::size_t n) { set_there(c.ground, n); }},
+    {"ground.friction", with_ground, nullptr},
+    {"ground.patch[]",
+     [](const Case& c) -> std::size_t { return c.ground ? c.ground->friction.patches.size() : 0; },
+     [](Case& c, std::size_t n) {
+       if (c.ground) c.ground->friction.patches.resize(n);
      }},
     {"contact", one, nullptr, in_time_untold},
     {"load.pressure[]", [](const Case& c) { return c.pressures.size(); },

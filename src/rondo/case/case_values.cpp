@@ -55,7 +55,7 @@ CaseValues::CaseValues(CaseSource source, const KeysOfFile& keys)
 void CaseValues::check_key(const std::string& path, const CaseValue& value) {
   const std::string found =
       value.type == ValueType::table ? std::string{} : source_.written(value.place);
-  if (keys_->is_table(path))
+  if (keys_->is_table(path) && !keys_->is_key(path))
     fault(path, fmt::format("must be a table, not {}", type_word(value.type)),
           keys_->keys_in(path));
   else if (keys_->is_list(path))

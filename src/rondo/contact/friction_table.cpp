@@ -17,14 +17,16 @@ struct Factor {
   double value = 1.0, slope = 0.0;
 };
 
-Factor slip_factor(const std::vector<SlipFactor>& table, double speed) noexcept {
+Factor slip_factor(const std::vector<std::array<double, 2>>& table, double speed) noexcept {
   if (table.empty()) return {};
-  const auto after = std::ranges::upper_bound(table, speed, {}, &SlipFactor::speed);
-  if (after == table.begin()) return {.value = table.front().factor};
-  if (after == table.end()) return {.value = table.back().factor};
-  const SlipFactor &low = *std::prev(after), &high = *after;
-  const double slope = (high.factor - low.factor) / (high.speed - low.speed);
-  return {low.factor + slope * (speed - low.speed), slope};
+  const auto after =
+      std::ranges::upper_bound(table, speed, {}, [](const auto& point) { return point[0]; });
+  if (after == table.begin()) return {.value = table.front()[1]};
+  if (after == table.end()) return {.value = table.back()[1]};
+  const auto [low_speed, low] = *std::prev(after);
+  const auto [high_speed, high] = *after;
+  const double slope = (high - low) / (high_speed - low_speed);
+  return {low + slope * (speed - low_speed), slope};
 }
 
 Factor pressure_factor(const FrictionTable& table, double pressure) noexcept {
@@ -46,10 +48,11 @@ double share_on(Side side, double lateral) noexcept {
 }  // namespace
 
 bool FrictionTable::is_constant() const noexcept {
-  return pressure_exponent == 0.0 &&
-         std::ranges::all_of(slip,
-                             [&](const SlipFactor& s) { return s.factor == slip[0].factor; }) &&
-         std::ranges::all_of(patches, [](const FrictionPatch& p) { return p.factor == 1.0; });
+  const auto is_as_first = [&](const auto& point) { return point[1] == slip[0][1]; };
+  const auto changes_nothing = [](const FrictionPatch& patch) { return patch.factor == 1.0; };
+  return coefficient == 0.0 ||
+         (pressure_exponent == 0.0 && std::ranges::all_of(slip, is_as_first) &&
+          std::ranges::all_of(patches, changes_nothing));
 }
 
 double patch_factor(const FrictionTable& table, const Vec3& place) noexcept {
@@ -58,6 +61,14 @@ double patch_factor(const FrictionTable& table, const Vec3& place) noexcept {
     if (place.x >= patch.from && place.x < patch.to)
       factor *= 1.0 + share_on(patch.side, place.z) * (patch.factor - 1.0);
   return factor;
+}
+
+double largest_friction(const FrictionTable& table) noexcept {
+  double slip = table.slip.empty() ? 1.0 : 0.0, patches = 1.0;
+  for (const auto& point : table.slip) slip = std::max(slip, point[1]);
+  for (const FrictionPatch& patch : table.patches) patches *= std::max(1.0, patch.factor);
+  const double pressure = std::pow(pressure_range, std::abs(table.pressure_exponent));
+  return table.coefficient * patches * slip * pressure;
 }
 
 FrictionValue friction_at(const FrictionTable& table, const SlidingState& of) noexcept {

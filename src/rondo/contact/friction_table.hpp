@@ -3,6 +3,7 @@
 /// and by patches of the ground (docs/roads.md). μ = μ_0 f(|w_t|) (p/p_ref)^k times the factors of
 /// the patches at that place.
 #pragma once
+#include <array>
 #include <vector>
 
 #include "rondo/contact/friction.hpp"
@@ -20,16 +21,11 @@ struct FrictionPatch {
   double factor = 1.0;     ///< >= 0, of the coefficient                             [-]
 };
 
-/// A point of a table.
-struct SlipFactor {
-  double speed = 0.0;   ///< |w_t|, >= 0                                                  [m/s]
-  double factor = 1.0;  ///< >= 0, of the coefficient                                     [-]
-};
-
 struct FrictionTable {
-  double coefficient = 0.0;           ///< μ_0: at factor 1, and at the reference pressure  [-]
-  std::vector<SlipFactor> slip;       ///< ascending speeds, linear between, the end values beyond;
-                                      ///< none: factor 1
+  double coefficient = 0.0;  ///< μ_0: at factor 1, and at the reference pressure  [-]
+  /// Factor of the coefficient, >= 0, over the slip speed |w_t| >= 0: ascending speeds, linear
+  /// between, the end values beyond. None: factor 1                                  [m/s, -]
+  std::vector<std::array<double, 2>> slip;
   double pressure_exponent = 0.0;     ///< k                                                [-]
   double pressure_reference = 2.0e5;  ///< p_ref > 0; p counts from p_ref/10 to 10 p_ref    [Pa]
   std::vector<FrictionPatch> patches;
@@ -49,6 +45,9 @@ struct FrictionValue {
 /// Allocates nothing.
 [[nodiscard]] FrictionValue friction_at(const FrictionTable& table,
                                         const SlidingState& of) noexcept;
+
+/// The most that μ can be, at any place, slip speed and pressure; of a constant, the constant.
+[[nodiscard]] double largest_friction(const FrictionTable& table) noexcept;
 
 /// The product of the factors of all patches at a place.
 [[nodiscard]] double patch_factor(const FrictionTable& table, const Vec3& place) noexcept;

@@ -64,7 +64,7 @@ std::span<const Variable> variables() noexcept {
 
 Values start_values(const study::Case& c, double step) {
   Values v;
-  v.friction = c.ground ? c.ground->friction.coefficient : 0.0;
+  v.friction = c.ground ? contact::largest_friction(c.ground->friction) : 0.0;
   v.hub_x_start = v.hub_x = c.motion.start_x;
   v.hub_height_start = v.hub_height = c.motion.height.at(0.0);
   v.step = step;

@@ -50,9 +50,15 @@ study::Case case_of(const study::Case& given, const Values& v) {
   if (given.initial.state == study::InitialState::steady_rolling && v.hub_angular_velocity == 0.0)
     throw study::case_error(given, "initial.state", "a wheel that stands does not roll steadily",
                             "a hub_angular_velocity other than 0 at the start, or \"rest\"");
+  if (given.ground && !given.ground->friction.is_constant())
+    throw study::case_error(given, "ground.friction",
+                            "the wheel of an FMU has one coefficient of friction, which its "
+                            "importer may set",
+                            "a number ground.friction, and no [[ground.patch]]");
   study::Case c = given;
   c.time.end = 1e-6;
   c.rim = dynamics::RimBody{};
+  c.ground->friction = {};
   c.ground->friction.coefficient = v.friction;
   c.motion.start_x = v.hub_x_start;
   c.motion.speed = dynamics::Table(v.hub_velocity_x);

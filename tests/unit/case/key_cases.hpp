@@ -119,6 +119,11 @@ end = 0.2
         lossy{"material.loss_factor=0.1", "material.loss_band=[1.0, 100.0]",
               "material.region=[{layers = [1], loss_factor = 0.2}]"},
         by_bulk{"material.region=[{layers = [1], bulk_modulus = 3e7, c10 = 1e5}]"};
+    const std::vector<std::string> rubs{
+        "ground.profile=flat",
+        "ground.friction={coefficient = 0.9, slip_speed = [[0, 1], [0.5, 1.2]], pressure_exponent "
+        "= -0.15, pressure_reference = 1e5}",
+        "disk.width=2.0", "ground.patch=[{from = 1, to = 2, side = 'left', factor = 0.5}]"};
     return std::vector<Case>{
         read_text(base, probe),
         read_text(base, obstacle),
@@ -144,6 +149,7 @@ end = 0.2
                          "5], [-1e4, -2]]"),
                   {"material.region=[{layers = [1]}]"}),
         read_text(treaded(), wheel),
+        read_text(base, rubs),
         read_text(base, turning),
         read_text(base, slipping),
         read_text(section),

@@ -35,7 +35,8 @@ TEST(KeyTable, EveryMeaningIsUnderstoodAlone) {
     EXPECT_EQ(rondo::test::fault_of_meaning(key.meaning), "") << key.path << ": " << key.meaning;
 }
 
-/// No two rows share a field, and of a list each table has its own.
+/// No two rows share a field, and of a list each table has its own. A number in the place of a
+/// table is one of its keys.
 TEST(KeyTable, EveryKeyHasAFieldOfItsOwn) {
   Case c = cases_with_every_key()[0];
   for (const CaseTable& table : case_tables())
@@ -50,7 +51,8 @@ TEST(KeyTable, EveryKeyHasAFieldOfItsOwn) {
       return field;
   };
   for (const CaseKey& key : case_keys())
-    for (std::size_t k = 0; k < (table_with(key).is_list() ? 2U : 1U); ++k)
+    for (std::size_t k = 0; !is_case_table(key.path) && k < (table_with(key).is_list() ? 2U : 1U);
+         ++k)
       EXPECT_TRUE(seen.insert(std::visit(address, key.field(c, k))).second) << key.path;
 }
 

@@ -37,6 +37,16 @@ TEST(FrictionTable, ThePressureCountsBetweenATenthAndTenTimesTheReference) {
   EXPECT_NEAR(at(table, 0.0, 0.0), 0.8 * std::pow(0.1, -0.2), 1e-15);
 }
 
+TEST(FrictionTable, TheMostThatItGivesIsThatOfAllItsFactors) {
+  FrictionTable table = rubber();
+  EXPECT_DOUBLE_EQ(largest_friction(table), 0.8 * 1.2 * std::pow(10.0, 0.2));
+  EXPECT_DOUBLE_EQ(largest_friction(table), at(table, 0.5, 0.0));
+  table.patches = {{0.0, 1.0, Side::both, 0.2}, {2.0, 3.0, Side::both, 1.5}};
+  EXPECT_DOUBLE_EQ(largest_friction(table), at(table, 0.5, 0.0, {2.5, 0.0, 0.0}));
+  table.coefficient = 0.0;
+  EXPECT_TRUE(table.is_constant());
+}
+
 TEST(FrictionTable, ItsDerivativesAreThoseOfDifferences) {
   const FrictionTable table = rubber();
   for (const double slip : {0.2, 0.7, 1.9, 3.0})
@@ -73,7 +83,7 @@ TEST(FrictionTable, WhatIsTheSameEverywhereIsAConstant) {
   table.slip = {{0.0, 1.0}, {1.0, 1.0}};
   table.patches = {{0.0, 1.0, Side::both, 1.0}};
   EXPECT_EQ(friction_of(table).constant(), 0.7);
-  table.slip[1].factor = 0.9;
+  table.slip[1][1] = 0.9;
   EXPECT_FALSE(friction_of(table).is_constant());
   EXPECT_NEAR(friction_of(table).coefficient({{}, 0.5, 0.0}), 0.665, 1e-15);
   EXPECT_FALSE(friction_of(rubber()).is_constant());

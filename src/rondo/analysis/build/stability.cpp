@@ -167,7 +167,7 @@ void warn_of_printed_scheme(const Case& c, Setup& s) {
 void refuse_wide_turns(const Case& c, double dt) {
   if (!c.ground || !is_held(c) || c.rim) return;
   const double turn = largest_until(c.motion.angular_velocity, c.time.end) * dt;
-  const double most = 2.0 * std::atan2(1.0, c.ground->friction.coefficient);
+  const double most = 2.0 * std::atan2(1.0, contact::largest_friction(c.ground->friction));
   if (turn < most) return;
   throw case_error(c, c.time.step ? "time.step" : "motion.angular_velocity",
                    fmt::format("the rim turns by {:.3g} rad in a step of {:.3g} s: too far for the "

@@ -108,7 +108,7 @@ StandingWheel standing_wheel(const Case& c, const mesh::Mesh& mesh, std::span<co
   StandingWheel wheel;
   wheel.figures = {found.height, found.forces.normal, 0};
   const statics::NodeMatrix<3> axes = statics::ground_axes<3>(window.problem().lean);
-  const bool sticks = c.ground->friction.coefficient > 0.0;
+  const bool sticks = contact::largest_friction(c.ground->friction) > 0.0;
   for (std::size_t k = 0; k < window.pairs().size(); ++k) {
     if (!(found.force[static_cast<Eigen::Index>(3 * k)] > 0.0)) continue;
     const statics::RollingPair& pair = window.pairs()[k];

@@ -34,6 +34,14 @@ bool has_nonlinear_ogden(const Case& c) {
          });
 }
 
+/// Patches make the friction of the ground no constant, and its tables do not.
+bool has_patches_alone(const Case& c) {
+  if (!c.ground || c.ground->friction.is_constant()) return false;
+  contact::FrictionTable rest = c.ground->friction;
+  rest.patches.clear();
+  return rest.is_constant();
+}
+
 /// If a feature has two rows, the last one also applies to a feature known only from the model.
 constexpr std::array rows{
     CaseFeature{has::three_dimensions, "section", "a [disk] without disk.width",
@@ -84,8 +92,9 @@ constexpr std::array rows{
     CaseFeature{
         has::energy_safe, "ground.impact", "no ground.impact",
         [](const Case& c) { return c.ground && c.ground->impact == contact::Impact::energy_safe; }},
-    CaseFeature{has::friction_law, "ground.friction", "a constant ground.friction",
-                [](const Case&) { return false; }},
+    CaseFeature{has::friction_law, "ground.patch[0]", "no [[ground.patch]]", has_patches_alone},
+    CaseFeature{has::friction_law, "ground.friction", "a number ground.friction, and no patches",
+                [](const Case& c) { return c.ground && !c.ground->friction.is_constant(); }},
     CaseFeature{has::stiffness_damping, "damping.stiffness", "damping.stiffness = 0",
                 [](const Case& c) { return c.damping.stiffness > 0.0; }},
     CaseFeature{has::stress_stiffening, "material.stress_stiffening",

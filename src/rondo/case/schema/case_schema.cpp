@@ -102,14 +102,21 @@ bool is_body(const CaseTable& table) {
   return std::ranges::find(body_tables, table.path) != body_tables.end();
 }
 
+/// A table in the place of a value of the same path requires its keys where it is there.
+bool is_alternative(const CaseTable& table) {
+  return find_case_key(table.path) != nullptr;
+}
+
 /// Adds the keys of the table, and its subtables that always exist, if they are required.
 void add_required(Json& schema, const CaseTable& table) {
   Json required = Json::array();
   for (const CaseKey& key : keys_of(table))
-    if (is_always_required(key)) required.push_back(leaf_of(key.path));
+    if (is_always_required(key) || (key.use.required && is_alternative(table)))
+      required.push_back(leaf_of(key.path));
   if (required.empty()) return;
   table_in(schema, table.path)["required"] = std::move(required);
-  if (table.resize != nullptr || table.path.empty() || is_body(table)) return;
+  if (table.resize != nullptr || table.path.empty() || is_body(table) || is_alternative(table))
+    return;
   Json& outer = table_in(schema, table_of(table.path));
   outer["required"].push_back(leaf_of(table.path));
 }
@@ -195,6 +202,11 @@ Json schema_of(const CaseKey& key) {
   if (schema.contains("anyOf"))  // an editor shows that of the selected alternative
     for (Json& one : schema["anyOf"]) one["description"] = schema["description"];
   if (Json standard = default_of(key); !standard.is_null()) schema["default"] = std::move(standard);
+  if (is_case_table(
+          key.path)) {  // bounds of numbers and members of tables do not disturb each other
+    schema["type"] = {schema["type"], "object"};
+    schema["additionalProperties"] = closed_object()["additionalProperties"];
+  }
   return schema;
 }
 
@@ -205,7 +217,7 @@ Json case_schema() {
   schema.update(closed_object());
   for (const CaseTable& table : case_tables()) {
     Json& into = table_in(schema, table.path);
-    if (!table.path.empty())
+    if (!table.path.empty() && !is_alternative(table))
       into["description"] = fmt::format("{}: {}", heading_of(table.path), keys_text(table.path));
     for (const CaseKey& key : keys_of(table))
       into["properties"][std::string(leaf_of(key.path))] = schema_of(key);

@@ -66,7 +66,8 @@ std::size_t crush_memory(const Case& c, const CrushSetup& s) {
   constexpr std::size_t columns_at_once = 32, copies = 3;  // loads, solution, within CHOLMOD
   const std::size_t fields = copies * columns_at_once * 2 * nodes;
   const double rows = 2.0 * static_cast<double>(s.within_reach);
-  const bool pivots = c.ground->friction.coefficient > 1.0;                // only then seen to be needed
+  const bool pivots =
+      contact::largest_friction(c.ground->friction) > 1.0;     // only then seen to be needed
   const double matrices = (pivots ? 7.5 : 3.0) * rows * rows;  // compliance and direct solves
   const bool wide_rows = has_wide_rows(c, s.mesh);
   return mesh_memory(nodes) + rubber_memory(c, s.mesh) + stiffness_memory(nodes, wide_rows) +
