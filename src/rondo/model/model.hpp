@@ -11,6 +11,7 @@
 
 #include "rondo/contact/ground.hpp"
 #include "rondo/contact/law.hpp"
+#include "rondo/contact/space_ground.hpp"
 #include "rondo/core/field.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/finite/swept_forces.hpp"
@@ -34,6 +35,9 @@ struct ContactModel {
   /// Edges between candidates (nodes), which corners of the ground may touch; in three dimensions
   /// only the edges around the wheel.
   std::vector<mesh::Edge> edges{};
+  /// In three dimensions: the ground, if it is not `ground` extruded along t2, which is then flat.
+  /// It is asked by the functions of solid/wheel_ground.hpp.
+  std::shared_ptr<const contact::SpaceGround> space{};
 };
 
 /// An unconstrained body. It moves in the fixed frame, where u is its whole displacement x - X;
@@ -110,7 +114,8 @@ struct SweptPart {
 
 /// Additional data of a wheel in three dimensions (docs/wheel3d.md). The fields of its state have
 /// three components; masses are in kg, forces in N, energies in J, tributaries in m². It is cyclic,
-/// clamped at its rim, and touches the ground: a profile in x and y is constant along t2.
+/// clamped at its rim, and touches the ground of
+/// solid/wheel_ground.hpp.
 struct SolidBody {
   std::vector<double> axial;  ///< (n) z of X                                 [m]
   fem::SolidSector sector;    ///< K of one sector                            [N/m]
@@ -183,11 +188,12 @@ void for_free_nodes(const Model& model, Work&& work) {
   for (const int node : model.free) work(static_cast<std::size_t>(node));
 }
 
-/// A contact of the step just made, in its own frame: along the normal, along J n and, in three
-/// dimensions, along t2 of ground_frame.hpp.
+/// A contact of the step just made, in its own frame: along the normal and J n, in three dimensions
+/// along the normal, the tangent and the line of `space`.
 struct ActiveContact {
   std::size_t candidate = 0;  ///< index in ContactModel::nodes
-  Vec2 normal;                ///< out of the ground, fixed frame
+  Vec2 normal;                ///< of plane bodies, out of the ground, fixed frame
+  contact::SpaceFrame space;  ///< in three dimensions
   double gap = 0.0;           ///< at t_{n+1}, <= 0                             [m]
   Vec3 before;                ///< w⁻: relative velocity of the previous step    [m/s]
   Vec3 free;                  ///< w without impulse                            [m/s]

@@ -8,22 +8,33 @@
 namespace rondo::study {
 namespace {
 
+/// Components in the frame of a contact, of a force along the axes of the ground.
+Vec3 to_frame_of(const dynamics::ActiveContact& c, bool in_space, Vec3 force) {
+  return in_space ? c.space.to(force) : Vec3(to_frame(c.normal, force.plane()));
+}
+
+/// The force of a contact along the axes of the ground.
+Vec3 force_of(const dynamics::ActiveContact& c, bool in_space, double dt) {
+  return in_space ? c.space.from(c.impulse) / dt
+                  : Vec3(from_frame(c.normal, c.impulse.plane()) / dt);
+}
+
 /// A node that touches two facets is given in the frame of the deeper one, which is listed first.
 void take_contacts(const dynamics::Model& model, const dynamics::State& state,
                    std::vector<ContactForce>& contacts) {
   const GroundFrame ground(model.motion.camber);
   RONDO_DEMAND(state.active.empty() || has_candidates(model), state.active.size());
   contacts.clear();
-  Vec2 normal;
+  const bool in_space = model.solid.has_value();
+  const dynamics::ActiveContact* first = nullptr;
   for (const dynamics::ActiveContact& c : state.active) {
-    if (contacts.empty() || c.candidate != contacts.back().candidate) normal = c.normal;
-    const Vec2 force = from_frame(c.normal, c.impulse.plane()) / model.dt;
-    const double lateral = c.impulse.z / model.dt;
+    if (!first || c.candidate != first->candidate) first = &c;
+    const Vec3 force = force_of(c, in_space, model.dt);
     contacts.push_back({.candidate = c.candidate,
-                        .force = {to_frame(normal, force), lateral},
-                        .force_fixed = ground.to_wheel({force, lateral}),
+                        .force = to_frame_of(*first, in_space, force),
+                        .force_fixed = ground.to_wheel(force),
                         .on_ground = c.on_ground,
-                        .sticks = model.solid && c.status == contact::Status::stick});
+                        .sticks = in_space && c.status == contact::Status::stick});
   }
 }
 

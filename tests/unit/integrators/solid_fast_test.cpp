@@ -260,8 +260,7 @@ struct Difference {
 /// What each candidate feels in all, along t1, n and t2.
 std::map<std::size_t, Vec3> on_nodes(const Outcome& o) {
   std::map<std::size_t, Vec3> felt;
-  for (const ActiveContact& c : o.state.active)
-    felt[c.candidate] += Vec3(from_frame(c.normal, c.impulse.plane()), c.impulse.z);
+  for (const ActiveContact& c : o.state.active) felt[c.candidate] += c.space.from(c.impulse);
   return felt;
 }
 

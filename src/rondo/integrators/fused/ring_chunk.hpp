@@ -22,6 +22,7 @@ template <int C>
 class RingChunk {
  public:
   using Vec = std::conditional_t<C == 2, Vec2, Vec3>;
+  using Touches = std::conditional_t<C == 2, contact::Touches, contact::SpaceTouches>;
 
   /// This chunk's own nodes, along their axes.
   void save(SavedState& saved) const noexcept;
@@ -60,7 +61,7 @@ class RingChunk {
   /// A column that touches, and what its row held before the update.
   struct Touching {
     int row, column;
-    contact::Touches touches;
+    Touches touches;
     Vec v;
     Vec force;
   };

@@ -313,14 +313,14 @@ void CornerSolver::add_active(const SolidContactStep& step, const CornerRow& row
     const Vec3 push = step.ground.from_wheel(contact::transposed(row.block[at(i)], row.impulse));
     ActiveContact a;
     a.candidate = finder_.candidate_of(row.node[at(i)]);
-    a.normal = row.kind == ContactKind::facet ? row.normal : -row.normal;
+    a.space.normal = row.kind == ContactKind::facet ? row.normal : -row.normal;
     a.gap = row.gap;
     a.before = row.before;
     a.free = row.free;
     a.after = row.after;
     a.bounce = row.bounce;
     a.friction = row.friction;
-    a.impulse = {dot(a.normal, push.plane()), dot(turn90(a.normal), push.plane()), push.z};
+    a.impulse = a.space.to(push);
     a.status = row.status;
     state.active.push_back(a);
   }

@@ -8,6 +8,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/integrators/general/readable_step.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::dynamics {
 
@@ -60,7 +61,7 @@ void SolidContacts::solve_alone(const SolidContactStep& step, std::size_t candid
   const ContactModel& contact = *model_.contact;
   const std::size_t k = at(contact.nodes[candidate]);
   const Vec3 arm = reference_of<Vec3>(model_, k) + state.u.space()[k];
-  const contact::Touches touches = contact.ground.touches(place_on_ground(step, arm));
+  const contact::SpaceTouches touches = touches_in_space(contact, place_in_space(step, arm));
   if (touches.count == 0) return;
   const bool asks = !contact.law.friction.is_constant();
   const std::size_t first = state.active.size(), count = at(touches.count);

@@ -16,20 +16,20 @@ using contact::Status;
 /// Largest number of passes over the two facets of a node.
 constexpr int most_passes = 1000;
 
-/// The contact frame: rows n, J n and t2, in the axes of the wheel.
+/// The frame of a contact in the axes of the wheel.
 struct Frame {
-  Vec3 normal, tangent, lateral;
+  Vec3 normal, tangent, line;
 
-  Frame(const GroundFrame& ground, Vec2 n) noexcept
-      : normal(ground.to_wheel(n)),
-        tangent(ground.to_wheel(turn90(n))),
-        lateral(ground.to_wheel({0.0, 0.0, 1.0})) {}
+  Frame(const GroundFrame& ground, const contact::SpaceFrame& frame) noexcept
+      : normal(ground.to_wheel(frame.normal)),
+        tangent(ground.to_wheel(frame.tangent())),
+        line(ground.to_wheel(frame.line)) {}
 
   [[nodiscard]] Vec3 to(Vec3 a) const noexcept {
-    return {dot(normal, a), dot(tangent, a), dot(lateral, a)};
+    return {dot(normal, a), dot(tangent, a), dot(line, a)};
   }
   [[nodiscard]] Vec3 from(Vec3 a) const noexcept {
-    return a.x * normal + a.y * tangent + a.z * lateral;
+    return a.x * normal + a.y * tangent + a.z * line;
   }
 };
 
@@ -37,7 +37,7 @@ using Mobility = SolidMobility;
 
 /// Rows of Q_a W Q_bᵀ.
 std::array<Vec3, 3> delassus(const Mobility& w, const Frame& a, const Frame& b) noexcept {
-  const Vec3 columns[3] = {a.to(w * b.normal), a.to(w * b.tangent), a.to(w * b.lateral)};
+  const Vec3 columns[3] = {a.to(w * b.normal), a.to(w * b.tangent), a.to(w * b.line)};
   return {Vec3{columns[0].x, columns[1].x, columns[2].x},
           Vec3{columns[0].y, columns[1].y, columns[2].y},
           Vec3{columns[0].z, columns[1].z, columns[2].z}};
@@ -70,14 +70,19 @@ bool solve_in_turn(const Mobility& w, std::span<const Frame> frames,
   return still;
 }
 
-/// @pre both have one μ. @return whether a case was accepted
+/// Turns the frame of the second contact into that of the first, about the line that they share.
+Complex turn_between(const contact::SpaceFrame& a, const contact::SpaceFrame& b) noexcept {
+  return {dot(a.normal, b.normal), dot(a.line, cross(a.normal, b.normal))};
+}
+
+/// @pre both have one μ and one line. @return whether a case was accepted
 bool solve_by_cases(const Mobility& w, std::span<const Frame> frames,
                     std::span<ActiveContact> contacts) noexcept {
   const ActiveContact &a = contacts[0], &b = contacts[1];
   const auto pair = contact::solve_spatial_pair({a.free,
                                                  delassus(w, frames[0], frames[0]),
                                                  {a.bounce, b.bounce},
-                                                 rotation_between(a.normal, b.normal)},
+                                                 turn_between(a.space, b.space)},
                                                 a.friction);
   for (std::size_t i = 0; i < 2 && pair.converged; ++i) {
     contacts[i].impulse = pair.contact[i].impulse;
@@ -198,17 +203,17 @@ void add_impulse(const SolidContactStep& s, Vec3 arm, Vec3 push, ContactReport& 
 }
 
 Vec3 solve_contacts(const SolidContactStep& s, const SolidContactNode& node,
-                    const contact::Touches& touches, std::span<ActiveContact> contacts,
+                    const contact::SpaceTouches& touches, std::span<ActiveContact> contacts,
                     ContactReport& report) noexcept {
   const Vec3 drive = drive_of(s, node.arm);
   const Vec3 before = velocity_before(s, node.arm, node.before);
   const Vec3 free = drive + s.plane.rotation_next * node.free;
-  const std::array frames{Frame(s.ground, touches.at[0].normal),
-                          Frame(s.ground, touches.at[1].normal)};
+  const std::array frames{Frame(s.ground, touches.at[0].frame),
+                          Frame(s.ground, touches.at[1].frame)};
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     ActiveContact& c = contacts[i] = {};
     c.candidate = node.candidate;
-    c.normal = touches.at[i].normal;
+    c.space = touches.at[i].frame;
     c.gap = touches.at[i].gap;
     c.before = frames[i].to(before);
     c.free = frames[i].to(free);

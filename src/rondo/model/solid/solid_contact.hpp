@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Contact of one candidate of a wheel in three dimensions in one step, the counterpart of
-/// contact_node.hpp (docs/wheel3d.md). The law is solved in the right-handed ground frame (n, J n,
-/// t2), where J n is the tangent of contact/ground.hpp.
+/// contact_node.hpp (docs/wheel3d.md). The law is solved in the frame of the touch, which is (n, J
+/// n, t2) where the ground is a profile.
 #pragma once
 #include <array>
 #include <span>
 
 #include "rondo/contact/cone.hpp"
+#include "rondo/contact/space_ground.hpp"
 #include "rondo/core/vec3.hpp"
 #include "rondo/model/contact_node.hpp"
 
@@ -74,7 +75,7 @@ void add_impulse(const SolidContactStep& step, Vec3 arm, Vec3 push, ContactRepor
 
 /// Counterpart of solve_contacts() in the plane. @pre touches.count is 1 or 2. Allocates nothing.
 [[nodiscard]] Vec3 solve_contacts(const SolidContactStep& step, const SolidContactNode& node,
-                                  const contact::Touches& touches,
+                                  const contact::SpaceTouches& touches,
                                   std::span<ActiveContact> contacts,
                                   ContactReport& report) noexcept;
 

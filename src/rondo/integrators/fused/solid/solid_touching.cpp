@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Contacts of a chunk's nodes with the ground.
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/solid/solid_chunk.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::dynamics {
 
@@ -38,10 +40,12 @@ Vec3 SolidChunk::load_on(const StepContext& step, CyclicPlace place) const noexc
 void SolidChunk::find_touching(const Work& work, int row) noexcept {
   const kernels::SolidRow& r = plan_.rows[static_cast<std::size_t>(row)];
   const SolidContactStep& contact = *work.step->solid_contact;
-  const contact::Ground& ground = model_.contact->ground;
   const Complex rotation = contact.plane.rotation * Complex{r.turn_x, r.turn_y};
   const Vec3 normal = contact.ground.to_wheel({0.0, 1.0, 0.0});
   constexpr double margin = 1e-9;  // m: the nodes found are looked at again, exactly
+  // No node is farther from the center than this, or the mesh has turned inside out.
+  const double reach = 2.0 * std::hypot(r.x, r.y, r.z), x = contact.plane.center.x;
+  const double top = top_between(*model_.contact, x - reach, x + reach);
   const int n = table_.low_columns({.u = field(row, work.now),
                                     .stride = plan_.stride,
                                     .x = r.x,
@@ -53,14 +57,15 @@ void SolidChunk::find_touching(const Work& work, int row) noexcept {
                                     .rotation_y = rotation.im,
                                     .normal_y = normal.y,
                                     .normal_z = normal.z,
-                                    .limit = ground.top() - contact.plane.center.y + margin,
+                                    .limit = top - contact.plane.center.y + margin,
                                     .first = work.extent.first_column,
                                     .last = work.extent.last_column},
                                    low_.data());
   for (int i = 0; i < n; ++i) {
     const int c = low_[static_cast<std::size_t>(i)];
     const Vec3 place = frame(row, c) * arm(row, at(row, work.now, c));
-    const contact::Touches touches = ground.touches(place_on_ground(contact, place));
+    const contact::SpaceTouches touches =
+        touches_in_space(*model_.contact, place_in_space(contact, place));
     if (touches.count == 0) continue;
     if (work.step->held && work.step->held[candidate_at(row, c)]) continue;
     touching_.push_back({row, c, touches, at(row, field_v, c),

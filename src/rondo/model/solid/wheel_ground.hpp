@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The ground of a wheel in three dimensions, whatever its kind: ContactModel::space, or
+/// where that is absent the profile of ContactModel::ground, extruded along t2. Places are
+/// (t1, n, t2) [m].
+#pragma once
+#include "rondo/contact/space_ground.hpp"
+#include "rondo/model/model.hpp"
+
+namespace rondo::dynamics {
+
+/// What a point touches.
+[[nodiscard]] inline contact::SpaceTouches touches_in_space(const ContactModel& contact,
+                                                            Vec3 place) noexcept {
+  return contact.space ? contact.space->touches(place)
+                       : contact::extruded(contact.ground.touches(place.plane()));
+}
+
+/// No ground above this height between two places along t1 [m]; of a profile anywhere.
+[[nodiscard]] inline double top_between(const ContactModel& contact, double from,
+                                        double to) noexcept {
+  return contact.space ? contact.space->top(from, to) : contact.ground.top();
+}
+
+/// Signed distance of a point to the ground [m]: that to the surface of a profile; else that along
+/// the normal where the point is in the ground, and the height above it where it is not.
+[[nodiscard]] inline double distance_in_space(const ContactModel& contact, Vec3 place) noexcept {
+  if (!contact.space) return contact.ground.distance(place.plane());
+  const contact::SpaceTouches touches = contact.space->touches(place);
+  return touches.count > 0 ? touches.at[0].gap : contact.space->clearance(place);
+}
+
+}  // namespace rondo::dynamics
