@@ -2,7 +2,9 @@
 """Obstacles on the ground: those of a profile drawn by hand, at an angle, and what they refuse."""
 import unittest
 
-from program import ROOT, SMALL, ProgramTest, run, summary
+import numpy as np
+
+from program import ROOT, SMALL, ProgramTest, history, run, summary
 from test_resume import RESULTS, ResumeTest
 
 CLEAT = "ground.obstacle=[{kind = 'cleat', at = 0.05, height = 0.01, length = 0.02}]"
@@ -46,6 +48,60 @@ class OfAProfile(ProgramTest):
         self.assertEqual(self.bits(SMALL, base, both), self.bits(SMALL, drawn))
 
 
+class AtAnAngle(ProgramTest):
+    """A cleat with sharp edges at 30° under a wheel with a width."""
+    text = (ROOT / "cases" / "wheel3d-cleat-30.toml").read_text()
+
+    def rows(self, *values, threads=1):
+        out = self.folder / "out"
+        done = run("run", self.case(self.text), "-o", out, "--quiet", "--overwrite", "--threads",
+                   threads, *settings(*values))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertLess(summary(out)["energy_residual_relative"], 1e-12)
+        self.assertLess(summary(out)["contact_residual_max"], 1e-12)
+        return history(out)
+
+    @staticmethod
+    def turned(angle):
+        return CLEAT.replace("0.05", "0.3").replace("}", f", angle = {angle}}}")
+
+    def test_seen_in_a_mirror_it_is_the_other_angle(self):
+        left, right = self.rows(), self.rows(self.turned(-0.5236))
+        self.assertGreater(summary(self.folder / "out")["contact"]["clusters_solved"], 500)
+        for name, sign in (("force_x", 1), ("force_y", 1), ("torque", 1), ("force_lateral", -1),
+                           ("moment_aligning", -1), ("moment_overturning", -1)):
+            most = np.abs(left[name]).max()
+            self.assertLess(np.abs(left[name] - sign * right[name]).max(), 1e-11 * most, name)
+        aside = left["force_lateral"]
+        self.assertGreater(np.abs(aside).max(), 0.04 * left["force_y"].max())
+        slippery = self.rows("ground.friction=0.3")["force_lateral"]
+        self.assertGreater(np.abs(slippery - aside).max(), 0.1 * np.abs(aside).max())
+
+    def test_a_small_angle_is_nearly_straight(self):
+        straight, turned = self.rows(self.turned(0.0)), self.rows(self.turned(1e-9))
+        self.assertLess(np.abs(straight["force_lateral"]).max(), 1e-9)
+        for name in ("force_x", "force_y", "torque"):
+            most = np.abs(straight[name]).max()
+            self.assertLess(np.abs(turned[name] - straight[name]).max(), 1e-5 * most, name)
+
+    def test_its_left_side_meets_it_first(self):
+        rows = self.rows("time.end=0.06")
+        first = np.flatnonzero(np.abs(rows["moment_overturning"]) > 20.0)[0]
+        self.assertGreater(rows["moment_overturning"][first], 0.0)  # a force up at t2 < 0
+        self.assertGreater(rows["time_s"][first], 0.03)
+
+    def test_it_goes_on_bit_for_bit_and_with_other_threads(self):
+        whole = self.rows("time.end=0.065")
+        for name, column in self.rows("time.end=0.065", threads=2).items():
+            self.assertTrue(np.array_equal(column, whole[name]), name)
+        out = self.folder / "parts"
+        parts = [run("run", self.case(self.text), "-o", out, "--set", "time.end=0.0602"),
+                 run("run", out, "--resume", "--set", "time.end=0.065")]
+        self.assertEqual([p.returncode for p in parts], [0, 0], parts[1].stderr)
+        for name, column in history(out).items():
+            self.assertTrue(np.array_equal(column, whole[name]), name)
+
+
 class Refused(ProgramTest):
     def refused(self, text, *values):
         done = run("check", self.case(text), *settings(*values))
@@ -60,6 +116,7 @@ class Refused(ProgramTest):
                 ("'cleat'", "'bump'", '"cleat", "step" or "pothole"'),
                 ("'cleat'", "'step'", "a step has no length"),
                 ("0.01, length = 0.02", "0.02, length = 0.02, fillet = 0.011", "it needs 0.022 m of the length of 0.02 m"),
+                ("}", ", angle = 0.3}", "a plane body has no width"),
                 ("}", ", width = 0.3}", "ground.obstacle[0].width")):
             with self.subTest(new):
                 self.assertIn(said, self.refused(SMALL, CLEAT.replace(old, new)))
@@ -67,6 +124,13 @@ class Refused(ProgramTest):
     def test_obstacles_that_overlap_say_where(self):
         two = CLEAT.replace("]", ", {kind = 'step', at = 0.06, height = 0.01}]")
         self.assertIn("begins within the obstacle from x = 0.05 to 0.07 m", self.refused(SMALL, two))
+
+    def test_edges_at_an_angle_have_one_angle_on_level_ground(self):
+        turned = CLEAT.replace("0.05", "0.3").replace("}", ", angle = 0.3}")
+        two = turned.replace("]", ", {kind = 'step', at = 0.6, height = 0.01}]")
+        self.assertIn("is another one than that of the first obstacle, 0.3",
+                      self.refused(WHEEL, FLAT, two))
+        self.assertIn("the ground below an edge at an angle must be level", self.refused(WHEEL, turned))
 
     def test_steady_rolling_and_a_start_in_it_need_flat_ground(self):
         steady = (ROOT / "cases" / "steady-rolling.toml").read_text()

@@ -140,7 +140,7 @@ def test_a_map_on_the_ground(smooth):
 
 
 def test_lengths_along_a_ledge():
-    ledge = Ground(np.array([[-10, -0.1], [0, -0.1], [0, 0], [10, 0]], dtype=float), 0.02)
+    ledge = Ground(np.array([[-10, -0.1], [0, -0.1], [0, 0], [10, 0]], dtype=float), np.full(4, 0.02))
     assert patch._abscissa(ledge, -3.0) == pytest.approx(7.0)
     around = 0.08 + 0.02 * np.pi / 2  # up to the corner and round it
     assert patch._abscissa(ledge, 0.02) == pytest.approx(10 + around, abs=1e-4)

@@ -220,7 +220,7 @@ def test_flat_ground_reaches_the_window() -> None:
 
 
 def test_a_convex_corner_is_an_arc_and_a_concave_one_is_sharp() -> None:
-    ledge = Ground(np.array([[-1, -0.1], [0, -0.1], [0, 0], [1, 0]], dtype=float), 0.02)
+    ledge = Ground(np.array([[-1, -0.1], [0, -0.1], [0, 0], [1, 0]], dtype=float), np.full(4, 0.02))
     points = ledge.points((-0.5, 0.5))
     assert [0.0, -0.1] in points.tolist()  # concave
     assert [0.0, 0.0] not in points.tolist()  # convex
@@ -231,7 +231,7 @@ def test_a_convex_corner_is_an_arc_and_a_concave_one_is_sharp() -> None:
 
 
 def test_end_segments_go_on_as_they_are() -> None:
-    slope = Ground(np.array([[0, 0], [1, 1], [2, 1]], dtype=float), 0.0)
+    slope = Ground(np.array([[0, 0], [1, 1], [2, 1]], dtype=float), np.zeros(3))
     points = slope.points((-2.0, 5.0))
     assert points[0] == pytest.approx([-2.0, -2.0])
     assert points[-1] == pytest.approx([5.0, 1.0])

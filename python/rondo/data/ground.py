@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 FLAT = [[-1.0, 0.0], [1.0, 0.0]]  # what the case file calls "flat" (m)
+ONE_PLACE = 1e-9  # places nearer to each other than this are one (m)
 ARC_STEP = np.radians(5.0)  # between two points of a rounded corner
 
 
@@ -17,12 +18,15 @@ ARC_STEP = np.radians(5.0)  # between two points of a rounded corner
 class Ground:
     """A polyline walked from left to right with the solid on its right-hand side, so below it.
 
-    corners: (k, 2) m, fixed frame; the end segments go on for ever.
-    fillet: radius by which convex corners are rounded (m).
+    corners: (k, 2) m, fixed frame, with the obstacles; the end segments go on for ever.
+    radii: (k,) by which convex corners are rounded (m).
+    angle: of the edges to the axis across the track (rad), and then the corners are those of the
+        section normal to them; a wheel with a width comes to them with its left side first if > 0.
     """
 
     corners: NDArray[np.float64]
-    fillet: float
+    radii: NDArray[np.float64]
+    angle: float = 0.0
 
     @classmethod
     def from_case(cls, case: Mapping[str, Any]) -> Ground | None:
@@ -30,21 +34,70 @@ class Ground:
         if "ground" not in case:
             return None
         profile = case["ground"].get("profile", "flat")
-        corners = FLAT if profile == "flat" else profile
-        return cls(np.array(corners, dtype=float), float(case["ground"].get("fillet", 0.0)))
+        corners = np.array(FLAT if profile == "flat" else profile, dtype=float)
+        radii = np.full(len(corners), float(case["ground"].get("fillet", 0.0)))
+        obstacles = case["ground"].get("obstacle", [])
+        angle = float(obstacles[0].get("angle", 0.0)) if obstacles else 0.0
+        return cls(*with_obstacles(corners, radii, obstacles), angle)
 
     def points(self, window: tuple[float, float]) -> NDArray[np.float64]:
-        """(m, 2) m: the ground with its corners rounded, reaching at least from window[0] to
-        window[1] along x. Walls at the ends are as long as the window is wide."""
+        """(m, 2) m: the ground in the middle of the track with its corners rounded, reaching at
+        least from window[0] to window[1] along x. Walls at the ends are as long as the window is
+        wide."""
         corners = self.corners.copy()
+        window = (window[0] * np.cos(self.angle), window[1] * np.cos(self.angle))
         reach = max(abs(side - x) for side in window for x in corners[[0, -1], 0])
         reach += window[1] - window[0]
         corners[0] = _extended(corners[1], corners[0], reach, window[0])
         corners[-1] = _extended(corners[-2], corners[-1], reach, window[1])
         pieces = [corners[:1]]
-        for before, corner, after in zip(corners, corners[1:], corners[2:]):
-            pieces.append(_rounded(before, corner, after, self.fillet))
-        return np.concatenate([*pieces, corners[-1:]])
+        for before, corner, after, radius in zip(corners, corners[1:], corners[2:], self.radii[1:]):
+            pieces.append(_rounded(before, corner, after, radius))
+        return np.concatenate([*pieces, corners[-1:]]) / [np.cos(self.angle), 1.0]
+
+
+def with_obstacles(corners: NDArray[np.float64], radii: NDArray[np.float64],
+                   obstacles: Sequence[Mapping[str, Any]]
+                   ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The corners (k, 2) and their radii (k,) with the obstacles of a case on them, normal to the
+    edges of these [m]."""
+    rises: dict[float, list[float]] = {}  # place: height, fillet
+    for one in obstacles:
+        at, fillet = one["at"] * np.cos(one.get("angle", 0.0)), one.get("fillet", 0.0)
+        height = -one["height"] if one["kind"] == "pothole" else one["height"]
+        ends = [(at, height)] if one["kind"] == "step" else [(at, height), (at + one["length"], -height)]
+        for place, rise in ends:
+            key = next((k for k in rises if abs(k - place) < ONE_PLACE), place)
+            before = rises.get(key, [0.0, fillet])
+            rises[key] = [before[0] + rise, min(before[1], fillet)]
+    for place, (rise, fillet) in rises.items():
+        corners, radii = _risen(corners, radii, place, rise, fillet)
+    return corners, radii
+
+
+def _risen(corners: NDArray[np.float64], radii: NDArray[np.float64], place: float, rise: float,
+           fillet: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """All that is behind a place risen, with a wall there."""
+    before, behind = corners[:, 0] < place, corners[:, 0] > place
+    there = corners[~before & ~behind]
+    (first, last) = (there[0], there[-1]) if len(there) else [_on_line(corners, place)] * 2
+    ends = [corners[0] - [1.0, _slope(corners[:2])]] if place <= corners[0, 0] else []
+    tail = [last + [1.0, rise + _slope(corners[-2:])]] if place >= corners[-1, 0] else []
+    return (np.array([*ends, *corners[before], first, last + [0.0, rise],
+                      *(corners[behind] + [0.0, rise]), *tail]),
+            np.array([*[0.0] * len(ends), *radii[before], fillet, fillet, *radii[behind],
+                      *[0.0] * len(tail)]))
+
+
+def _slope(two: NDArray[np.float64]) -> float:
+    return float((two[1, 1] - two[0, 1]) / (two[1, 0] - two[0, 0]))
+
+
+def _on_line(corners: NDArray[np.float64], place: float) -> NDArray[np.float64]:
+    """The point of the ground at a place, on the end segments too."""
+    k = int(np.clip(np.searchsorted(corners[:, 0], place), 1, len(corners) - 1))
+    two = corners[k - 1:k + 1]
+    return two[0] + (place - two[0, 0]) * np.array([1.0, _slope(two)])
 
 
 def _extended(inner: NDArray[np.float64], end: NDArray[np.float64], reach: float,

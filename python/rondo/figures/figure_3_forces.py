@@ -64,7 +64,7 @@ def climbing(run: Run) -> tuple[float, float]:
     h, ground = run.history, ground_of(run)
     touching = h["force_y"] > 0
     rear = h["center_x_m"] - 0.5 * h["contact_length_m"]
-    flat = touching & (rear > ground.corners[-2, 0] + ground.fillet)
+    flat = touching & (rear > ground.corners[-2, 0] + ground.radii[-2])
     return float(h["time_s"][np.argmax(touching)]), float(h["time_s"][np.argmax(flat)])
 
 

@@ -121,7 +121,8 @@ RecordPlan DynamicAnalysis::record_plan() const {
   const double interval = std::max(case_.output.history_interval, setup_.model.dt);
   plan.n_rows = static_cast<std::size_t>(case_.time.end / interval) + 2;
   plan.materials = setup_.materials;
-  if (setup_.model.contact) plan.ground = &setup_.model.contact->ground;
+  if (setup_.model.contact && setup_.model.contact->axes.are_straight())
+    plan.ground = &setup_.model.contact->ground;
   if (!setup_.model.free_bodies.empty()) plan.model = &setup_.model;
   return plan;
 }

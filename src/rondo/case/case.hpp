@@ -124,8 +124,9 @@ struct GroundCase {
   double fillet = 0.0;                                         ///< of the profile            [m]
   RoadCase road;
   std::vector<contact::Obstacle> obstacles;
-  /// The profile with the obstacles that lie straight across: the reader makes it.
-  contact::GroundShape shape;
+  // Made by the reader from the profile and the obstacles:
+  contact::GroundShape shape;  ///< normal to the edges of the obstacles
+  double edge_angle = 0.0;     ///< of these, across the track of a wheel with a width         [rad]
   contact::FrictionTable friction;
   double restitution = 0.0;  ///< e in [0, 1]
   contact::Impact impact = contact::Impact::moreau;

@@ -593,6 +593,10 @@ constexpr CaseKey keys[] = {
     {"ground.obstacle[].length", "m", FIELD(ground->obstacles[k].length), positive,
      required.if_item(obstacle_has_length, "required, not for a step").body(never),
      "Length of a cleat or a pothole, normal to its edges"},
+    {"ground.obstacle[].angle", "rad", FIELD(ground->obstacles[k].angle),
+     with(slanted, "in rad: 30° is 0.5236"), optional.body(never),
+     "Angle between the edges and the axis across the track of a wheel with a width; > 0: its left "
+     "side meets them first"},
     {"ground.obstacle[].fillet", "m", FIELD(ground->obstacles[k].fillet), not_negative,
      optional.body(never), "Radius that rounds its convex edges; 0: they are sharp"},
 

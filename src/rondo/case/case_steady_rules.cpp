@@ -152,8 +152,11 @@ void check_start_motion(CaseValues& in, const Case& c) {
 
 std::optional<double> flat_ground_below(const Case& c, double radius) {
   const contact::GroundShape& shape = c.ground->shape;
-  const double reach = radius + shape.fillet;
-  const double from = c.motion.start_x - reach, to = c.motion.start_x + reach;
+  const double angle = c.ground->edge_angle;  // the half width reaches beside the center then
+  const double half = c.wheel.width ? 0.5 * *c.wheel.width : radius;
+  const double aside = angle == 0.0 ? 0.0 : std::abs(std::sin(angle)) * half;
+  const double reach = radius + shape.fillet + aside, center = c.motion.start_x * std::cos(angle);
+  const double from = center - reach, to = center + reach;
   std::optional<double> height;
   const std::size_t last = shape.profile.size() - 1;
   for (std::size_t k = 0; k < last; ++k) {  // the end segments are infinite

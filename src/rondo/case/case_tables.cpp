@@ -64,12 +64,12 @@ constexpr CaseTable tables[] = {
     {"rim", with_rim, [](Case& c, std::size_t n) { set_there(c.rim, n); }, in_time_untold},
     {"rim.support.x", with_rim, nullptr, in_time_untold},
     {"rim.support.y", with_rim, nullptr, in_time_untold},
-    {"ground", [](const Case& c) -> std::size_t { return c.ground ? 1 : 0; },
-     [](Case& c, std::size_t n) { set_there(c.ground, n); }},
-    {"ground.obstacle[]", [](const Case& c) { return c.ground ? c.ground->obstacles.size() : 0; },
+    {"ground", with_ground, [](Case& c, std::size_t n) { set_there(c.ground, n); }},
+    {"ground.obstacle[]",
+     [](const Case& c) -> std::size_t { return c.ground ? c.ground->obstacles.size() : 0; },
      [](Case& c, std::size_t n) {
        if (c.ground) c.ground->obstacles.resize(n);
-    {"ground", with_ground, [](Case& c, std::size_t n) { set_there(c.ground, n); }},
+     }},
     {"ground.friction", with_ground, nullptr},
     {"ground.patch[]",
      [](const Case& c) -> std::size_t { return c.ground ? c.ground->friction.patches.size() : 0; },

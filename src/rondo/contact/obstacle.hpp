@@ -39,9 +39,8 @@ struct ObstacleFault {
 [[nodiscard]] std::vector<ObstacleFault> obstacle_faults(const GroundShape& base,
                                                          std::span<const Obstacle> obstacles);
 
-/// The ground with the obstacles on it, whatever their angles, as a section normal to their edges
-/// would have them at t2 = 0. @pre shape_faults(base) and obstacle_faults(base, obstacles) are
-/// empty
+/// The ground with the obstacles on it as if they lay straight across, whatever their angles. @pre
+/// shape_faults(base) and obstacle_faults(base, obstacles) are empty
 [[nodiscard]] GroundShape with_obstacles(const GroundShape& base,
                                          std::span<const Obstacle> obstacles);
 

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "rondo/contact/edge_axes.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/core/vec3.hpp"
 
@@ -50,11 +51,13 @@ struct SpaceTouches {
   std::array<SpaceTouch, 2> at;
 };
 
-/// The touches of a profile that is extruded along t2.
-[[nodiscard]] inline SpaceTouches extruded(const Touches& plane) noexcept {
+/// The touches of a profile that is extruded along its edges.
+[[nodiscard]] inline SpaceTouches extruded(const Touches& plane, const EdgeAxes& axes) noexcept {
   SpaceTouches out{.count = plane.count, .at = {}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(plane.count); ++i)
-    out.at[i] = {plane.at[i].gap, {.normal = plane.at[i].normal}};
+    out.at[i] = {
+        plane.at[i].gap,
+        {.normal = axes.to_ground(plane.at[i].normal), .line = axes.to_ground({0.0, 0.0, 1.0})}};
   return out;
 }
 

@@ -35,7 +35,9 @@ struct ContactModel {
   /// Edges between candidates (nodes), which corners of the ground may touch; in three dimensions
   /// only the edges around the wheel.
   std::vector<mesh::Edge> edges{};
-  /// In three dimensions: the ground, if it is not `ground` extruded along t2, which is then flat.
+  contact::EdgeAxes axes{};  ///< of the edges of `ground`, in three dimensions
+  /// In three dimensions: the ground, if it is not `ground` extruded along its edges, which is then
+  /// flat.
   /// It is asked by the functions of solid/wheel_ground.hpp.
   std::shared_ptr<const contact::SpaceGround> space{};
 };

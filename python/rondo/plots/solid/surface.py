@@ -161,13 +161,17 @@ class Picture:
         """Lines that stand still on the ground, so that the wheel is seen to go along and aside."""
         step = LINES * self.run.outer_radius
         lines = []
+        shear = edge_shear(self.run)
         for at in np.arange(np.ceil((along + profile[0, 0]) / step),
                             np.floor((along + profile[-1, 0]) / step) + 1) * step - along:
             height = float(np.interp(at, profile[:, 0], profile[:, 1]))
-            lines.append(self.on_screen(np.array([[at, height]] * 2), np.array([-half, half])))
+            sides = np.array([-half, half])
+            lines.append(self.on_screen(np.stack([at + shear * (lateral + sides), [height] * 2], axis=1),
+                                        sides))
         for at in np.arange(np.ceil((lateral - half) / step),
                             np.floor((lateral + half) / step) + 1) * step - lateral:
-            lines.append(self.on_screen(profile, np.full(len(profile), at)))
+            lines.append(self.on_screen(profile + [shear * (lateral + at), 0.0],
+                                        np.full(len(profile), at)))
         return lines
 
     def on_screen(self, plane: Array, lateral: Array) -> Array:
@@ -189,16 +193,23 @@ def ground_profile(run: Run, k: int) -> tuple[Array, float]:
     if ground is None:
         return np.empty((0, 2)), half
     along, height = (float(value) for value in run.center[k])
-    reach = GROUND_REACH[0] * run.outer_radius
+    reach = GROUND_REACH[0] * run.outer_radius + abs(edge_shear(run)) * half
     profile = ground.points((along - reach, along + reach))
     return clipped(profile, along - reach, along + reach) - [along, height], half
+
+
+def edge_shear(run: Run) -> float:
+    """How far edges of the ground go along t1 over a way along t2."""
+    ground = Ground.from_case(run.case)
+    return float(np.tan(ground.angle)) if ground else 0.0
 
 
 def ground_strips(run: Run, k: int) -> Array:
     """(s, 4, 3): the ground in strips across, in the axes of the wheel, from its center [m]."""
     profile, half = ground_profile(run, k)
     sides = np.array([-half, half, half, -half])
-    strips = [in_wheel_axes(run, np.repeat(piece, 2, axis=0), sides)
+    aside = np.stack([edge_shear(run) * (float(run.lateral[k]) + sides), np.zeros(4)], axis=1)
+    strips = [in_wheel_axes(run, np.repeat(piece, 2, axis=0) + aside, sides)
               for piece in zip(profile[:-1], profile[1:])]
     return np.array(strips).reshape(-1, 4, 3)
 

@@ -6,6 +6,7 @@
 
 #include "rondo/contact/intrusion.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::study {
 
@@ -27,12 +28,13 @@ bool BetweenNodes::may_be_deep(const dynamics::FrameStep* frame, long long steps
   const contact::Ground& ground = model_.contact->ground;
   const double way = 2.0 * static_cast<double>(steps) * norm(frame->advance);
   const double reach = radius_ + way + ground.bend_reach();
+  const Vec2 center = dynamics::on_profile(*model_.contact, frame->center);
   const auto bends = ground.bends();  // left to right
   auto bend = std::partition_point(bends.begin(), bends.end(), [&](const contact::Corner& k) {
-    return k.position.x < frame->center.x - reach;
+    return k.position.x < center.x - reach;
   });
-  for (; bend != bends.end() && bend->position.x <= frame->center.x + reach; ++bend)
-    if (std::abs(bend->position.y - frame->center.y) <= reach) return true;
+  for (; bend != bends.end() && bend->position.x <= center.x + reach; ++bend)
+    if (std::abs(bend->position.y - center.y) <= reach) return true;
   return false;
 }
 
@@ -40,7 +42,8 @@ Vec2 BetweenNodes::place(const dynamics::State& state, int node) const noexcept 
   const std::size_t k = at(node);
   if (!model_.solid) return position(model_, state, k);
   const Vec3 arm = Vec3(model_.reference[k], model_.solid->axial[k]) + state.u.space()[k];
-  return (state.frame.center + ground_.from_wheel(state.frame.rotation * arm)).plane();
+  return on_profile(*model_.contact,
+                    state.frame.center + ground_.from_wheel(state.frame.rotation * arm));
 }
 
 double BetweenNodes::depth(const dynamics::State& state) const noexcept {

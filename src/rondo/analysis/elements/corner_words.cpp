@@ -10,7 +10,7 @@ namespace rondo::study {
 CornerWords corner_words(const Case& c, const dynamics::Model& model) {
   const contact::Corner& corner = model.contact->ground.corners()[0];
   const double fillet = corner.radius, spacing = model.contact->ground.spacing();
-  const Vec2 first = corner.position;
+  const Vec2 first = at_middle(c, corner.position);
   CornerWords words;
   words.corners = fmt::format("sharp convex corners of the ground (the first at {:.6g}, {:.6g} m",
                               first.x, first.y);

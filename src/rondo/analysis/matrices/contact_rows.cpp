@@ -52,15 +52,17 @@ ContactRows contact_rows(const Case& c, const dynamics::Model& model, const Fram
   for (std::size_t k = 0; k < model.free.size(); ++k)
     place[at(model.free[k])] = static_cast<int>(k);
   const GroundFrame ground(model.motion.camber);
+  const contact::EdgeAxes& edges = model.contact->axes;
   const Complex turn = rotation(frame.angle);
   ContactRows out;
   std::vector<Eigen::Triplet<double>> entries;
   for (const int node : model.contact->nodes) {
     const Vec3 arm = turn * arm_of(model, u, at(node));
-    const contact::Touch touch =
-        model.contact->ground.facet_near((frame.center + ground.from_wheel(arm)).plane());
-    const std::array<Vec3, 3> axes{Vec3(touch.normal), Vec3(turn90(touch.normal)),
-                                   Vec3(0.0, 0.0, 1.0)};
+    const contact::Touch touch = model.contact->ground.facet_near(
+        edges.from_ground(frame.center + ground.from_wheel(arm)).plane());
+    const std::array<Vec3, 3> axes{edges.to_ground(touch.normal),
+                                   edges.to_ground(turn90(touch.normal)),
+                                   edges.to_ground({0.0, 0.0, 1.0})};
     append(ground.to_wheel(axes[0]), components, out.normal);
     append(conj(turn) * ground.to_wheel(axes[0]), components, out.normal_corotating);
     for (std::size_t d = 0; d < components; ++d) {

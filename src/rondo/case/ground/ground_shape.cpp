@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "rondo/core/index.hpp"
 
@@ -20,19 +21,48 @@ std::string key_of(std::size_t obstacle, std::string_view member) {
 bool all_good(const CaseValues& in, const GroundCase& ground) {
   bool good = true;
   for (std::size_t k = 0; k < ground.obstacles.size(); ++k)
-    for (const std::string_view member : {"kind", "at", "height", "length", "fillet"})
+    for (const std::string_view member : {"kind", "at", "height", "length", "angle", "fillet"})
       good &= in.good({key_of(k, member)});
   return good;
 }
 
-void check_obstacles(CaseValues& in, const Case& c, const contact::GroundShape& base) {
-  const auto& obstacles = c.ground->obstacles;
+void check_obstacles(CaseValues& in, const std::vector<contact::Obstacle>& obstacles,
+                     const contact::GroundShape& base) {
   for (const contact::ObstacleFault& fault : contact::obstacle_faults(base, obstacles))
     in.refuse(key_of(fault.obstacle, fault.member), fault.message, fault.allowed);
   for (std::size_t k = 0; k < obstacles.size(); ++k) {
     if (obstacles[k].kind == contact::ObstacleKind::step && in.has(key_of(k, "length")))
       in.refuse(key_of(k, "length"), "a step has no length", "a \"cleat\"; or no length");
   }
+}
+
+/// Edges at an angle are those of one profile, seen normal to them: the ground below them is level.
+void check_angles(CaseValues& in, const Case& c) {
+  const auto& obstacles = c.ground->obstacles;
+  const auto& profile = c.ground->profile;
+  const bool level = std::ranges::all_of(profile, [&](Vec2 p) { return p.y == profile.front().y; });
+  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+    const std::string key = key_of(k, "angle");
+    if (obstacles[k].angle != obstacles[0].angle)
+      in.refuse(
+          key,
+          fmt::format("is another one than that of the first obstacle, {:.6g}", obstacles[0].angle),
+          "one angle for all obstacles");
+    if (obstacles[k].angle == 0.0) continue;
+    if (!is_solid(c))
+      in.refuse(key, "a plane body has no width to meet an edge at an angle with",
+                "0; or a disk.width");
+    if (!level)
+      in.refuse(key, "the ground below an edge at an angle must be level",
+                "0; or ground.profile = \"flat\"");
+  }
+}
+
+/// The obstacles as they follow each other normal to their edges.
+std::vector<contact::Obstacle> normal_to_edges(std::vector<contact::Obstacle> obstacles) {
+  for (contact::Obstacle& o : obstacles)
+    if (o.angle != 0.0) o.at *= std::cos(o.angle);
+  return obstacles;
 }
 
 /// What the obstacles make of the profile may have no room for the fillets of both.
@@ -47,6 +77,11 @@ void check_whole(CaseValues& in, const contact::GroundShape& whole) {
 
 }  // namespace
 
+Vec2 at_middle(const Case& c, Vec2 of_shape) {
+  const double angle = c.ground->edge_angle;
+  return angle == 0.0 ? of_shape : Vec2{of_shape.x / std::cos(angle), of_shape.y};
+}
+
 std::string fillet_key(const Case& c, double radius) {
   const auto& obstacles = c.ground->obstacles;
   const auto of = std::ranges::find(obstacles, radius, &contact::Obstacle::fillet);
@@ -60,11 +95,15 @@ void make_shape(CaseValues& in, Case& c) {
   c.ground->shape = base;
   if (c.ground->obstacles.empty() || !shape_faults(base).empty() || !all_good(in, *c.ground))
     return;
-  check_obstacles(in, c, base);
+  const std::vector<contact::Obstacle> obstacles = normal_to_edges(c.ground->obstacles);
+  check_obstacles(in, obstacles, base);
+  check_angles(in, c);
   if (!all_good(in, *c.ground)) return;
-  contact::GroundShape whole = contact::with_obstacles(base, c.ground->obstacles);
+  contact::GroundShape whole = contact::with_obstacles(base, obstacles);
   check_whole(in, whole);
-  if (in.good({list})) c.ground->shape = std::move(whole);
+  if (!in.good({list})) return;
+  c.ground->shape = std::move(whole);
+  c.ground->edge_angle = c.ground->obstacles.front().angle;
 }
 
 }  // namespace rondo::study

@@ -14,11 +14,12 @@
 namespace rondo::dynamics {
 namespace {
 
-/// H in components along t1 and n, of a contact frame with t2, in the axes of the wheel.
-contact::SpatialBlock in_space(const GroundFrame& ground, const contact::Block& plane,
-                               double lateral) noexcept {
-  return {ground.to_wheel({plane[0], plane[1], 0.0}), ground.to_wheel({plane[2], plane[3], 0.0}),
-          ground.to_wheel({0.0, 0.0, lateral})};
+/// H in components normal to the edges of the ground and along n, of a contact frame with the
+/// direction of the edges, in the axes of the wheel.
+contact::SpatialBlock in_space(const GroundFrame& ground, const contact::EdgeAxes& axes,
+                               const contact::Block& plane, double along) noexcept {
+  const auto row = [&](Vec3 a) { return ground.to_wheel(axes.to_ground(a)); };
+  return {row({plane[0], plane[1], 0.0}), row({plane[2], plane[3], 0.0}), row({0.0, 0.0, along})};
 }
 
 std::uint64_t key_of_corner(std::size_t corner, int edge) noexcept {
@@ -116,7 +117,8 @@ CornerRow CornerFinder::on_node(int node, Vec2 normal) const noexcept {
   row.count = 1;
   row.node = {node, -1};
   row.weight = {1.0, 0.0};
-  row.block[0] = in_space(ground_, {normal.x, normal.y, tangent.x, tangent.y}, 1.0);
+  row.block[0] =
+      in_space(ground_, model_.contact->axes, {normal.x, normal.y, tangent.x, tangent.y}, 1.0);
   row.normal = normal;
   return row;
 }
@@ -156,12 +158,14 @@ CornerRow CornerFinder::on_edge(const contact::EdgeTouch& found) const noexcept 
   const double at_b = found.touch.at;
   const contact::SegmentRows plane =
       contact::segment_rows(found.touch, norm(places_[at(b)] - places_[at(a)]));
+  const contact::EdgeAxes& axes = model_.contact->axes;
   CornerRow row;
   row.kind = ContactKind::corner;
   row.count = 2;
   row.node = {a, b};
   row.weight = {1.0 - at_b, at_b};
-  row.block = {in_space(ground_, plane.a, at_b - 1.0), in_space(ground_, plane.b, -at_b)};
+  row.block = {in_space(ground_, axes, plane.a, at_b - 1.0),
+               in_space(ground_, axes, plane.b, -at_b)};
   row.normal = found.touch.normal;
   return row;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Where sharp corners of the ground touch the edges around a wheel in three dimensions
-/// (docs/wheel3d.md). A corner of the profile is a line along t2. It crosses the edges that join
+/// (docs/wheel3d.md). A corner of the profile is a line along the edges of the
+/// ground (contact/edge_axes.hpp), mostly t2. It crosses the edges that join
 /// the nodes around the wheel, each of which it touches as a plane body's (docs/theory.md, 4.8),
 /// seen along the line: between two such edges the tread is ruled, so that the line is nowhere
 /// deeper than at one of them.
@@ -33,7 +34,8 @@ class CornerFinder {
   [[nodiscard]] const EdgeRows& edges() const noexcept { return edges_; }
   /// The largest of EdgeRows::deepest                                                  [m]
   [[nodiscard]] double deepest() const noexcept { return deepest_; }
-  /// (n) along t1 and n, set by the caller for the candidates, or for those near corners [m]
+  /// (n) on the profile, by on_profile() of wheel_ground.hpp; set by the caller for the candidates,
+  /// or for those near corners [m]
   [[nodiscard]] std::span<Vec2> places() noexcept { return places_; }
   [[nodiscard]] std::span<const Vec2> places() const noexcept { return places_; }
 

@@ -8,7 +8,7 @@
 namespace rondo::dynamics {
 
 /// Rows on the velocities of its nodes, in the axes of the wheel: w = Σ H_i V_i, along n, J n and
-/// t2 of the contact.
+/// the edges of the ground.
 struct CornerRow {
   ContactKind kind = ContactKind::facet;  ///< facet or corner
   int count = 0;                          ///< nodes: 1 of a facet, 2 of a corner
@@ -16,8 +16,8 @@ struct CornerRow {
   std::array<contact::SpatialBlock, 2> block{};  ///< H_i; H_iᵀ r is the impulse on the node
   std::array<double, 2> weight{};                ///< of the nodes in the place that touches
   std::uint64_t key = 0;                         ///< name of the contact, the same in the next step
-  Vec2 normal;               ///< along t1 and n; what r acts on is pushed along it
-  Vec2 point;                ///< that touches, along t1 and n                  [m]
+  Vec2 normal;               ///< in the plane of the profile; what r acts on is pushed along it
+  Vec2 point;                ///< that touches, in the plane of the profile      [m]
   double gap = 0.0;          ///< <= 0                                          [m]
   double tributary = 0.0;    ///< [m²]; of a corner 0
   double turning = 0.0;      ///< see ContactRow                                [m/s]

@@ -11,6 +11,7 @@
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/integrators/general/late_contact.hpp"
 #include "rondo/integrators/general/readable_step.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -24,7 +25,7 @@ bool is_key_of_corner(std::uint64_t key) noexcept {
   return key >> 62U == static_cast<std::uint64_t>(ContactKind::corner);
 }
 
-/// Marks the key of the part of an impulse along t2.
+/// Marks the key of the part of an impulse along the edges of the ground.
 constexpr std::uint64_t along_line = 1ULL << 61U;
 
 Vec3 impulse_before(const KeptImpulses& before, std::uint64_t key) noexcept {
@@ -133,7 +134,8 @@ double CornerSolver::turning_of(const SolidContactStep& step, const CornerRow& r
   for (std::size_t i = 0; i < 2; ++i) {
     const std::size_t k = at(row.node[i]);
     const Vec3 velocity = velocity_before(step, arm_of(state, k), state.v.space()[k]);
-    to[i] = finder_.places()[k] + model_.dt * step.ground.from_wheel(velocity).plane();
+    to[i] = finder_.places()[k] +
+            model_.dt * on_profile(*model_.contact, step.ground.from_wheel(velocity));
   }
   const Vec2 along = to[1] - to[0];
   const double gap = cross(row.point - to[0], along) / norm(along);
@@ -160,7 +162,7 @@ void CornerSolver::look_for_late(const SolidContactStep& step, const KeptImpulse
         was_found(before, row.key) || came_round(row))
       continue;
     report.late = -row.gap;
-    report.late_at = row.point;
+    report.late_at = model_.contact->axes.to_ground(row.point).plane();
   }
 }
 
@@ -309,11 +311,13 @@ void CornerSolver::finish(const SolidContactStep& step, CornerRow& row, State& s
 /// A node on a facet is pushed along the normal, the nodes of an edge against it.
 void CornerSolver::add_active(const SolidContactStep& step, const CornerRow& row,
                               State& state) const {
+  const contact::EdgeAxes& axes = model_.contact->axes;
   for (int i = 0; i < row.count; ++i) {
     const Vec3 push = step.ground.from_wheel(contact::transposed(row.block[at(i)], row.impulse));
     ActiveContact a;
     a.candidate = finder_.candidate_of(row.node[at(i)]);
-    a.space.normal = row.kind == ContactKind::facet ? row.normal : -row.normal;
+    a.space.normal = axes.to_ground(row.kind == ContactKind::facet ? row.normal : -row.normal);
+    a.space.line = axes.to_ground({0.0, 0.0, 1.0});
     a.gap = row.gap;
     a.before = row.before;
     a.free = row.free;

@@ -29,7 +29,7 @@ class CornerSolver {
   void solve(const SolidContactStep& step, const contact::KeptImpulses& before, State& state,
              ContactReport& report);
   /// Adds the impulses of the last step by the keys of their contacts: along n and J n, and by a
-  /// marked key along t2; 0 of those that others hold                        [N·s]
+  /// marked key along the edges; 0 of those that others hold                        [N·s]
   void add_impulses_to(contact::KeptImpulses& kept) const;
 
  private:

@@ -44,10 +44,6 @@ struct SolidContactNode {
 inline Vec3 place_in_space(const SolidContactStep& s, Vec3 arm) noexcept {
   return Vec3(s.plane.center, s.lateral) + s.ground.from_wheel(s.plane.rotation * arm);
 }
-/// The part of it along t1 and n, at which the ground is searched                     [m]
-inline Vec2 place_on_ground(const SolidContactStep& s, Vec3 arm) noexcept {
-  return s.plane.center + s.ground.from_wheel(s.plane.rotation * arm).plane();
-}
 
 /// Effect of a node's impulses on its velocity in the next step, in the axes of the wheel.
 struct SolidMobility {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The ground of a wheel in three dimensions, whatever its kind: ContactModel::space, or
-/// where that is absent the profile of ContactModel::ground, extruded along t2. Places are
+/// where that is absent the profile of ContactModel::ground, extruded along its edges. Places are
 /// (t1, n, t2) [m].
 #pragma once
 #include "rondo/contact/space_ground.hpp"
@@ -8,11 +8,17 @@
 
 namespace rondo::dynamics {
 
+/// A place as the profile of ContactModel::ground sees it, along its edges.
+[[nodiscard]] inline Vec2 on_profile(const ContactModel& contact, Vec3 place) noexcept {
+  return contact.axes.from_ground(place).plane();
+}
+
 /// What a point touches.
 [[nodiscard]] inline contact::SpaceTouches touches_in_space(const ContactModel& contact,
                                                             Vec3 place) noexcept {
-  return contact.space ? contact.space->touches(place)
-                       : contact::extruded(contact.ground.touches(place.plane()));
+  return contact.space
+             ? contact.space->touches(place)
+             : contact::extruded(contact.ground.touches(on_profile(contact, place)), contact.axes);
 }
 
 /// No ground above this height between two places along t1 [m]; of a profile anywhere.
@@ -24,7 +30,7 @@ namespace rondo::dynamics {
 /// Signed distance of a point to the ground [m]: that to the surface of a profile; else that along
 /// the normal where the point is in the ground, and the height above it where it is not.
 [[nodiscard]] inline double distance_in_space(const ContactModel& contact, Vec3 place) noexcept {
-  if (!contact.space) return contact.ground.distance(place.plane());
+  if (!contact.space) return contact.ground.distance(on_profile(contact, place));
   const contact::SpaceTouches touches = contact.space->touches(place);
   return touches.count > 0 ? touches.at[0].gap : contact.space->clearance(place);
 }

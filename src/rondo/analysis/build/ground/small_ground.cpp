@@ -19,10 +19,11 @@ std::string small_obstacle(const Case& c, const contact::Ground& ground) {
   const double spacing = ground.spacing();
   const contact::Intrusion obstacle = contact::hidden_between_nodes(ground, spacing).whole;
   if (!(obstacle.depth > contact::least_hidden * spacing)) return {};
+  const Vec2 place = at_middle(c, obstacle.at);
   return fmt::format(
       "{}: the obstacle {:.3g} m high at ({:.6g}, {:.6g}) m is shorter than the {:.3g} "
       "m between two contact nodes: {}; give an obstacle several times as long, or a finer mesh",
-      ground_key(c), obstacle.depth, obstacle.at.x, obstacle.at.y, spacing, where_they_are);
+      ground_key(c), obstacle.depth, place.x, place.y, spacing, where_they_are);
 }
 
 std::string small_fillet(const Case& c, const contact::Ground& ground) {
@@ -31,7 +32,7 @@ std::string small_fillet(const Case& c, const contact::Ground& ground) {
       ground.corners(), [](const contact::Corner& corner) { return corner.radius > 0.0; });
   if (round == ground.corners().end()) return {};
   const double fillet = round->radius;
-  const Vec2 first = round->position;
+  const Vec2 first = at_middle(c, round->position);
   return fmt::format(
       "{}: the radius of {:.3g} m is below the {:.3g} m between two contact nodes, and "
       "the corner at ({:.6g}, {:.6g}) m counts as sharp: {}; give a fillet of at least {:.3g} m, "

@@ -58,7 +58,8 @@ void add_ground(const Case& c, const mesh::Mesh& mesh, Model& model) {
       mesh::rolling_edges(mesh, c.section ? c.section->mesh.contact : "tread");
   model.contact.emplace(dynamics::ContactModel{
       contact::Ground(c.ground->shape, mesh::longest_edge(mesh.coordinates, edges)),
-      law_of(*c.ground), mesh.boundary, mesh.tributary, edges});
+      law_of(*c.ground), mesh.boundary, mesh.tributary, edges,
+      contact::EdgeAxes(c.ground->edge_angle)});
 }
 
 /// -s0² M P x, a load that is always there.

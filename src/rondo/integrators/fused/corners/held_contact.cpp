@@ -8,6 +8,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::dynamics {
 
@@ -100,10 +101,10 @@ bool HeldContact::is_far(std::span<const StepContext> steps) noexcept {
 
 void HeldContact::look_around(std::span<const StepContext> steps, double reach) noexcept {
   RONDO_ASSERT(!steps.empty(), boundary_.n_nodes());
-  const Vec2 first = steps.front().frame.center.plane();
+  const Vec2 first = on_profile(*boundary_.contact, steps.front().frame.center);
   around_ = {first, first};
   for (const StepContext& step : steps) {
-    const Vec2 x = step.frame.center.plane();
+    const Vec2 x = on_profile(*boundary_.contact, step.frame.center);
     around_.low = {std::min(around_.low.x, x.x), std::min(around_.low.y, x.y)};
     around_.high = {std::max(around_.high.x, x.x), std::max(around_.high.y, x.y)};
   }

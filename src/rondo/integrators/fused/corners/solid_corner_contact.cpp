@@ -7,6 +7,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::dynamics {
 
@@ -15,7 +16,7 @@ SolidCornerContact::SolidCornerContact(const Model& model)
 
 Vec2 SolidCornerContact::place_of(const FrameStep& frame, std::size_t candidate) const noexcept {
   const Vec3 arm = reference_at(candidate) + state_.u.space()[candidate];
-  return (frame.center + ground_.from_wheel(frame.rotation * arm)).plane();
+  return on_profile(*boundary_.contact, frame.center + ground_.from_wheel(frame.rotation * arm));
 }
 
 /// Way of a point of the boundary that does not deform, at the most                          [m]
@@ -66,8 +67,9 @@ void SolidCornerContact::find(const StepContext& step, const CandidateFields& fi
   CornerFinder& finder = solver_.finder();
   for (const int node : nodes_) {
     state_.u.space()[at(node)] = fields.motion_of(at(node)).u;
-    finder.places()[at(node)] =
-        place_on_ground(*step.solid_contact, reference_at(at(node)) + state_.u.space()[at(node)]);
+    finder.places()[at(node)] = on_profile(
+        *boundary_.contact,
+        place_in_space(*step.solid_contact, reference_at(at(node)) + state_.u.space()[at(node)]));
   }
   for (const CornerRow& row : solver_.find(near_))
     for (int i = 0; i < row.count; ++i) hold(step, fields, at(row.node[at(i)]));
