@@ -151,6 +151,7 @@ void check_start_motion(CaseValues& in, const Case& c) {
 }  // namespace
 
 std::optional<double> flat_ground_below(const Case& c, double radius) {
+  if (is_on_road_surface(c)) return std::nullopt;
   const contact::GroundShape& shape = c.ground->shape;
   const double reach = radius + shape.fillet;
   const double from = c.motion.start_x - reach, to = c.motion.start_x + reach;
