@@ -80,6 +80,19 @@ class AgainstProfiles(RoadRun):
         self.assertGreater(np.abs(flat["force_y"] - by_road["force_y"]).max(),
                            0.03 * flat["force_y"].max())
 
+    def test_a_banked_road_is_camber(self):
+        angle = 0.1
+        self.road(heights(lambda u, v: np.tan(angle) * v + 0 * u))
+        upright = self.rows(ON_ROAD, "motion.height=0.301", "motion.slip_angle=0")
+        leaning = self.rows(SHORT, f"motion.height={0.301 * np.cos(angle)}", "motion.slip_angle=0",
+                            f"motion.camber={angle}")
+        normal = np.cos(angle) * upright["force_y"] + np.sin(angle) * upright["force_lateral"]
+        lateral = np.cos(angle) * upright["force_lateral"] - np.sin(angle) * upright["force_y"]
+        scale = leaning["force_y"].max()
+        self.assertGreater(scale, 1000.0)
+        for name, along in (("force_y", normal), ("force_lateral", lateral), ("force_x", upright["force_x"])):
+            self.assertLess(np.abs(along - leaning[name]).max(), 1e-5 * scale, name)  # slopes in single precision
+
     def test_a_mirrored_road_has_mirrored_forces(self):
         z = heights(waves)
         given = ("motion.slip_angle=0.05", "motion.camber=0.04", "ground.road_offset=0.02")
@@ -135,8 +148,11 @@ class Balance(RoadRun):
 class Kept(RoadRun):
     def test_the_case_of_the_results_is_run_again(self):
         self.road(heights(waves))
-        given = ("ground.road_border=keep", "ground.road_offset=0.01")
-        first = self.rows(ON_ROAD, *given)
+        given = settings("ground.road_border=keep", "ground.road_offset=0.01")
+        self.case(ON_ROAD)  # found from elsewhere, though its path was none from the root
+        done = run("run", "case.toml", "-o", "out", "--quiet", *given, cwd=self.folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        first = history(self.out)
         written = (self.out / "case.toml").read_text()
         self.assertIn(f'road = "{self.folder}/a.crg"', written)
         self.assertNotIn("profile", written)
@@ -219,6 +235,19 @@ class Told(ProgramTest):
         self.assertNotIn("the body comes to", told)
         told = self.check(ramp, "ground.road_start=1.8", "ground.road_border=zero").stderr
         self.assertIn("there is a step of 0.02 m at the end of the road, at u = 2 m", told)
+
+
+    def test_the_start_knows_the_road(self):
+        banked = heights(lambda u, v: 0.1 * v + 0 * u)  # 5 mm at the side of the wheel
+        told = self.check(banked, "motion.height=0.303", text=replaced(ON_ROAD, "height", "height = 1")).stderr
+        depth = 0.002 / np.hypot(1.0, 0.1)
+        self.assertIn(f"the body starts {depth:.4g} m inside the ground", told)
+        self.assertNotIn("inside", self.check(banked, "motion.height=0.3051").stderr)
+        done = run("check", self.case(ON_ROAD), *settings("motion.height=0.28"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("m deep inside the ground, more than half an element", done.stderr)
+        done = run("check", self.case(ON_ROAD), *settings("motion.height=0.1"))
+        self.assertIn("nodes that are held would be up to", done.stderr)
 
 
 class Refused(ProgramTest):
