@@ -21,7 +21,7 @@ set(RONDO_INCLUDED_HEADERS
     fem/finite/swept_rubber.hpp fem/finite/take_block.hpp fem/solid/hexahedron.hpp
     fem/hyperelastic/numbers.hpp fem/hyperelastic/laws.hpp fem/hyperelastic/branch.hpp
     fem/hyperelastic/element.hpp fem/hyperelastic/stress.hpp modal/critical_speeds.hpp modal/modes.hpp
-    contact/box_tree.hpp contact/friction.hpp contact/friction_table.hpp contact/law.hpp contact/edge_axes.hpp contact/obstacle.hpp contact/space_ground.hpp contact/coupled/band.hpp contact/coupled/block.hpp contact/coupled/coupled.hpp
+    contact/box_tree.hpp contact/friction.hpp contact/friction_table.hpp contact/law.hpp contact/space/edge_axes.hpp contact/obstacle.hpp contact/space/space_ground.hpp contact/coupled/band.hpp contact/coupled/block.hpp contact/coupled/coupled.hpp
     contact/coupled/problem_file.hpp
     road/axis.hpp road/road.hpp road/road_part.hpp road/surface.hpp
     model/contact_node.hpp model/ledger.hpp model/material_report.hpp model/motion.hpp model/rim_body.hpp

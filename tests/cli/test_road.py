@@ -8,7 +8,6 @@ import numpy as np
 
 from program import ROOT, SMALL, ProgramTest, RunTest, history, replaced, run, summary
 from test_resume import RESULTS, ResumeTest
-from test_solid import WHEEL
 from test_wheel_cases import FREE_RIM
 
 FIRST, STEP, ROWS = 3.0, 1 / 64, 193  # u of the road [m]: numbers that binary holds exactly
@@ -165,10 +164,6 @@ class Refused(RoadTest, ProgramTest):
         self.assertEqual(done.returncode, 2, done.stderr)
         for part in parts:
             self.assertIn(part, done.stderr)
-
-    def test_a_wheel_with_a_width(self):
-        self.refused(on_road(WHEEL, 'road = "a.crg"'), "ground.road", "a wheel with a width",
-                     "one section of the road as ground.profile")
 
     def test_a_damaged_file_by_its_name_and_line(self):
         text = road_text(self.heights)

@@ -43,6 +43,12 @@ EXPECTED = {
         Figure("torque", np.mean, 0.0, 0.1, 0.4),
         Figure("force_lateral", np.mean, -2425.0, 1.0, 0.4),
         Figure("moment_aligning", np.mean, -35.4, 0.1, 0.4)],
+    "wheel3d-cobbles": [
+        Figure("force_y", np.mean, 1799.9, 1.0, 0.1),
+        *extremes("force_y", 742.0, 3407.0, 5.0, 0.1),
+        *extremes("force_lateral", -655.0, 776.0, 5.0, 0.1),
+        *extremes("center_y_m", 0.30152, 0.30705, 1e-5, 0.1),
+        *extremes("spin_rad_s", 6.503, 6.898, 1e-3, 0.1)],
     "wheel-rolling": [
         Figure("center_y_m", np.mean, 0.29166, 1e-5, 0.2),
         Figure("spin_rad_s", np.mean, 33.753, 1e-3, 0.2),

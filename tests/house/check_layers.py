@@ -17,7 +17,7 @@ ALLOWED = {
     "road": {"core"},
     "mesh": {"core"},
     "fem": {"core", "mesh"},
-    "contact": {"core"},
+    "contact": {"core", "road"},
     "contact/coupled": {"core", "contact"},
     "model/stability": {"core", "mesh", "fem"},
     "model": SOLIDS,

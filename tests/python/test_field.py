@@ -212,6 +212,7 @@ def test_no_contact_no_arrows(paper: rondo.Paper) -> None:
 
 def test_no_ground() -> None:
     assert Ground.from_case({"disk": {}}) is None
+    assert Ground.from_case({"ground": {"road": "a.crg"}}) is None  # a surface, not a line
 
 
 def test_flat_ground_reaches_the_window() -> None:

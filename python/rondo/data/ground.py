@@ -30,8 +30,9 @@ class Ground:
 
     @classmethod
     def from_case(cls, case: Mapping[str, Any]) -> Ground | None:
-        """The ground of a case as case.toml holds it; None where there is none."""
-        if "ground" not in case:
+        """The ground of a case as case.toml holds it; None where there is none, and under a wheel with a
+        width on a road, whose surface is no line."""
+        if "ground" not in case or "road" in case["ground"]:
             return None
         profile = case["ground"].get("profile", "flat")
         corners = np.array(FLAT if profile == "flat" else profile, dtype=float)

@@ -37,7 +37,7 @@ void DynamicAnalysis::judge(const dynamics::StepReport& step) {
 std::string DynamicAnalysis::look_at_rim(const dynamics::StepReport& step) {
   const std::string turned = turned_too_far(step.frame.turn, setup_.model.dt);
   if (!turned.empty()) return turned;
-  const HubWatch::Seen hub = hub_->look(step.frame.center.plane(), step.frame.time);
+  const HubWatch::Seen hub = hub_->look(step.frame.center, step.frame.time);
   if (!hub.warning.empty()) warn(hub.warning);
   return hub.trouble;
 }

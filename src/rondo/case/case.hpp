@@ -108,13 +108,15 @@ struct Probe {
   Vec2 position;     ///< [m]
 };
 
-/// A measured road, whose section along u is the ground of a plane body (docs/roads.md, section 3).
-/// The reader makes the points of the ground from it; a case as written has only the points.
+/// A measured road. Its section along u is the ground of a plane body (docs/roads.md, section 3):
+/// the reader makes the points of the ground from it, and a case as written has only the points.
+/// Its smooth surface is the ground of a wheel in three dimensions (section 4).
 struct RoadCase {
-  std::string file;             ///< as written, relative to the case file's directory; empty: none
+  std::string file;             ///< as written, relative to the case file's directory; of a wheel
+                                ///< in three dimensions with this directory; empty: none
   std::optional<double> start;  ///< u at x = 0; the reader sets it to what it is by default  [m]
-  double offset = 0.0;          ///< v of the section                                         [m]
-  std::string border;           ///< "keep" or "zero"; empty: that of the file
+  double offset = 0.0;          ///< v of the section, or of the wheel's middle plane         [m]
+  std::string border;           ///< "keep", "zero" or "repeat"; empty: that of the file
   std::shared_ptr<const road::Road> read{};  ///< the contents of the file; null: none is read
   double height = 0.0;                       ///< in the file at x = 0: the ground has 0 there [m]
 };
@@ -304,6 +306,11 @@ inline const char* ground_key(const Case& c) {
 inline bool has_friction_table(const Case& c) {
   return c.ground &&
          (!c.ground->friction.slip.empty() || c.ground->friction.pressure_exponent != 0.0);
+}
+
+/// Whether the ground is the surface of a road, under a wheel in three dimensions.
+inline bool is_on_road_surface(const Case& c) {
+  return c.ground && c.ground->road.read && is_solid(c);
 }
 
 /// The Gmsh file that the body comes from; null: it is generated.

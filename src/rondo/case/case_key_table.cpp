@@ -116,6 +116,13 @@ bool is_smooth(const Case& c) {
 bool is_lagged(const Case& c) {
   return c.time.scheme == Scheme::as_printed || c.rim;
 }
+/// The ground is a line: a profile, or the section of a road.
+bool has_profile(const Case& c) {
+  return !is_on_road_surface(c);
+}
+bool names_border(const Case& c) {
+  return is_on_road_surface(c) && !c.ground->road.border.empty();
+}
 bool has_free_x(const Case& c) {
   return c.rim && c.rim->free_x;
 }
@@ -544,24 +551,32 @@ constexpr CaseKey keys[] = {
      optional.if_(has_free_y).said("the center's height at t = 0").body(never),
      "Height of the center at which the spring along y exerts no force"},
 
-    {"ground.profile", "m", FIELD(ground->profile), any, optional.said("required, or ground.road"),
+    {"ground.profile", "m", FIELD(ground->profile), any,
+     optional.if_(has_profile, "required, or ground.road"),
      "Surface of the ground: the line y = 0, a polyline, or a CSV file of its points, relative to "
      "the case file's directory. The `case.toml` of the results contains the points"},
-    {"ground.road", "-", FIELD(ground->road.file), any, optional.if_(never, "none").body(never),
-     "Measured road under a plane body, instead of `profile`: its section along u, relative to the "
-     "case file's directory ([roads.md](roads.md#3-a-road-under-a-plane-wheel)). The `case.toml` "
-     "of the results contains the points of the section as `profile`"},
+    {"ground.road", "-", FIELD(ground->road.file), any,
+     optional.if_(is_on_road_surface, "none").body(never).free_on_resume(),
+     "Measured road in place of `profile`, relative to the case file's directory: its section "
+     "along "
+     "u under a plane body ([roads.md](roads.md#3-a-road-under-a-plane-wheel)), its surface under "
+     "a "
+     "wheel with a width ([roads.md](roads.md#4-wheels-with-a-width)). The `case.toml` of the "
+     "results "
+     "contains the points of the section as `profile`, or the path"},
     {"ground.road_start", "m", FIELD(ground->road.start), any,
-     optional.if_(never, "first u of the road + 0.5 m").body(never),
+     optional.if_(is_on_road_surface, "first u of the road + 0.5 m").body(never),
      "Coordinate u of the road where x = 0. The height there is subtracted, so that y = 0 at x = "
      "0"},
     {"ground.road_offset", "m", FIELD(ground->road.offset), any,
-     optional.if_(never, "0.0").body(never),
+     optional.if_(is_on_road_surface, "0.0").body(never),
      "Coordinate v of the road at the plane of the body, > 0 to the left"},
-    {"ground.road_border", "-", FIELD(ground->road.border), one_from("keep", "zero"),
-     optional.if_(never, "that of the file, else \"keep\"").body(never),
-     "Level ground before and behind the road. \"keep\": at the height of its end. \"zero\": at "
-     "the height 0 of the file, with a step at the end"},
+    {"ground.road_border", "-", FIELD(ground->road.border), one_from("keep", "zero", "repeat"),
+     optional.if_(names_border, "that of the file, else \"keep\"").body(never),
+     "Ground before and behind the road. \"keep\": level at the height of its end. \"zero\": level "
+     "at the height 0 of the file, with a step at the end. \"repeat\": the road once more, for "
+     "wheels "
+     "with a width"},
     {"ground.fillet", "m", FIELD(ground->fillet), not_negative, optional.of(in_time_untold),
      "Radius that rounds all convex corners of the ground; 0: they are sharp"},
     {"ground.friction", "-", FIELD(ground->friction.coefficient),
@@ -584,7 +599,7 @@ constexpr CaseKey keys[] = {
      one_from("cleat", "step", "pothole"), required.body(never),
      "Obstacle on the ground, whose height it adds to. \"cleat\": a bar of rectangular section. "
      "\"step\": behind it the ground goes on at another level. \"pothole\": a trough of "
-     "rectangular section ([roads.md](roads.md#4-obstacles))"},
+     "rectangular section ([roads.md](roads.md#5-obstacles))"},
     {"ground.obstacle[].at", "m", FIELD(ground->obstacles[k].at), any, required.body(never),
      "Position x of its first edge, for a wheel with a width where that crosses the middle of the "
      "track"},

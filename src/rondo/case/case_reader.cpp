@@ -6,7 +6,7 @@
 #include "rondo/case/case.hpp"
 #include "rondo/case/case_rules.hpp"
 #include "rondo/case/ground/ground_shape.hpp"
-#include "rondo/case/road_ground.hpp"
+#include "rondo/case/ground/road_ground.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::study {

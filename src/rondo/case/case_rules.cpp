@@ -281,6 +281,9 @@ void require(CaseValues& in, std::string_view key) {
 void check_flat_ground(CaseValues& in, const Case& c, std::string_view who) {
   if (!in.has_table("ground")) return in.missing("ground.profile");
   if (!in.good({"ground", "ground.profile", "ground.road", "ground.fillet"})) return;
+  if (is_on_road_surface(c))
+    return in.fault("ground.road", fmt::format("{} needs flat ground, and a road is not", who),
+                    "ground.profile = \"flat\" in its place");
   const std::vector<Vec2>& profile = c.ground->shape.profile;
   if (!std::all_of(profile.begin(), profile.end(), [&](Vec2 p) { return p.y == profile[0].y; }))
     in.fault(ground_key(c), fmt::format("{} needs flat ground: all points at one height", who),

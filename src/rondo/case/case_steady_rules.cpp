@@ -151,6 +151,7 @@ void check_start_motion(CaseValues& in, const Case& c) {
 }  // namespace
 
 std::optional<double> flat_ground_below(const Case& c, double radius) {
+  if (is_on_road_surface(c)) return std::nullopt;
   const contact::GroundShape& shape = c.ground->shape;
   const double angle = c.ground->edge_angle;  // the half width reaches beside the center then
   const double half = c.wheel.width ? 0.5 * *c.wheel.width : radius;

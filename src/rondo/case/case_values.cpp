@@ -10,8 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "rondo/case/ground/profile_file.hpp"
 #include "rondo/case/numbers/foreign_writing.hpp"
-#include "rondo/case/profile_file.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "rondo/contact/ground.hpp"
 #include "rondo/contact/law.hpp"
-#include "rondo/contact/space_ground.hpp"
+#include "rondo/contact/space/space_ground.hpp"
 #include "rondo/core/field.hpp"
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/finite/swept_forces.hpp"

@@ -16,6 +16,7 @@
 #include "rondo/core/version.hpp"
 #include "rondo/io/checkpoint_file.hpp"
 #include "rondo/io/mesh_files.hpp"
+#include "rondo/io/road_hash.hpp"
 #include "rondo/output/run_files.hpp"
 
 namespace rondo::study {
@@ -101,6 +102,7 @@ void for_texts(Known& identity, Visit&& visit) {
   visit("/identity/case", identity.case_text);
   visit("/identity/mesh_hash", identity.mesh_hash);
   visit("/identity/reduced", identity.reduced);
+  visit("/identity/road_hash", identity.road_hash);
 }
 
 /// Calls visit(name, value, label) for all single numbers; units are those of a plane body.
@@ -229,8 +231,14 @@ void get_state(const File& file, dynamics::SavedState& s) {
 RunIdentity identity_of(const Case& c, const Setup& setup) {
   RONDO_DEMAND(setup.model.dt > 0.0 && setup.mesh.n_nodes() > 0, setup.model.dt,
                setup.mesh.n_nodes());
-  return {version,       build_id(),    dispatch_level(), write_case(c), io::mesh_hash(setup.mesh),
-          setup.reduced, setup.model.dt};
+  return {version,
+          build_id(),
+          dispatch_level(),
+          write_case(c),
+          io::mesh_hash(setup.mesh),
+          setup.reduced,
+          setup.model.dt,
+          is_on_road_surface(c) ? io::road_hash(*c.ground->road.read) : std::string()};
 }
 
 void write_checkpoint(const std::filesystem::path& directory, const Checkpoint& k) {

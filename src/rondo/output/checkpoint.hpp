@@ -20,11 +20,12 @@ namespace rondo::study {
 /// The identity of a run: it is resumed only if all of this is the same.
 struct RunIdentity {
   std::string version, build_id;
-  std::string dispatch;   ///< instruction set of the inner loops
-  std::string case_text;  ///< as read, all defaults written out
-  std::string mesh_hash;  ///< of nodes, cells, boundary, because a mesh file may change
-  std::string reduced;    ///< Setup::reduced
-  double step = 0.0;      ///< Δt [s]
+  std::string dispatch;     ///< instruction set of the inner loops
+  std::string case_text;    ///< as read, all defaults written out
+  std::string mesh_hash;    ///< of nodes, cells, boundary, because a mesh file may change
+  std::string reduced;      ///< Setup::reduced
+  double step = 0.0;        ///< Δt [s]
+  std::string road_hash{};  ///< of the road under a wheel in three dimensions; empty: there is none
 };
 
 struct Checkpoint {

@@ -235,6 +235,9 @@ void demand_same_run(const Checkpoint& k, const RunIdentity& now, const Case& c,
     faults.push_back(differs(c.section ? "section.file" : "mesh.file",
                              mesh_file_of(c) ? as_utf8(mesh_file_of(c)->file.string()) : "",
                              "is not the mesh that the run began with", "that mesh"));
+  if (faults.empty() && k.identity.road_hash != now.road_hash)
+    faults.push_back(differs("ground.road", c.ground ? c.ground->road.file : "",
+                             "is not the road that the run began with", "that road"));
   if (faults.empty() && k.identity.step != now.step)
     faults.push_back(differs("time.step", fmt::format("{}", now.step),
                              "the step of the checkpoint is another one",

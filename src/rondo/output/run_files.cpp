@@ -12,6 +12,7 @@
 #include <new>
 #include <system_error>
 
+#include "rondo/case/case_source.hpp"
 #include "rondo/core/build_id.hpp"
 #include "rondo/core/build_record.hpp"
 #include "rondo/core/contract.hpp"
@@ -161,9 +162,13 @@ void give_warnings(const std::vector<std::string>& warnings, const RunOptions& o
 
 Case kept_case(const Case& c) {
   Case kept = c;
+  std::error_code error;
+  if (is_on_road_surface(kept)) {
+    std::string& road = kept.ground->road.file;
+    road = as_utf8(std::filesystem::absolute(road, error).string());
+  }
   MeshCase* const mesh = mesh_file_of(kept);
   if (!mesh) return kept;
-  std::error_code error;
   const std::filesystem::path whole = std::filesystem::absolute(mesh->file, error);
   mesh->file = is_copied(*mesh) ? std::filesystem::path(mesh_copy) : whole;
   return kept;

@@ -38,7 +38,7 @@ RoadCells cells_in(const Surface& surface, const RoadPart& part) noexcept {
   return {u.begin, u.end, v.begin, v.end};
 }
 
-RoadPlace largest_slope_change(const Surface& surface, double length,
+RoadPlace largest_slope_change(const Surface& surface, const ElementLengths& element,
                                const RoadPart& part) noexcept {
   const RoadCells cells = cells_in(surface, part);
   const Axis &u = surface.u_axis(), &v = surface.v_axis();
@@ -48,12 +48,12 @@ RoadPlace largest_slope_change(const Surface& surface, double length,
   };
   for (std::size_t j = cells.v_begin; j <= cells.v_end; ++j)
     look_along(
-        u, {cells.u_begin, cells.u_end + 1}, length,
+        u, {cells.u_begin, cells.u_end + 1}, element.u,
         [&](std::size_t i) { return surface.slopes_at(i, j).u; },
         [&](std::size_t i, double change) { keep(i, j, change); });
   for (std::size_t i = cells.u_begin; i <= cells.u_end; ++i)
     look_along(
-        v, {cells.v_begin, cells.v_end + 1}, length,
+        v, {cells.v_begin, cells.v_end + 1}, element.v,
         [&](std::size_t j) { return surface.slopes_at(i, j).v; },
         [&](std::size_t j, double change) { keep(i, j, change); });
   return largest;

@@ -29,10 +29,15 @@ struct RoadCells {
 };
 [[nodiscard]] RoadCells cells_in(const Surface& surface, const RoadPart& part) noexcept;
 
+/// Lengths of an element along u and across, > 0                                         [m]
+struct ElementLengths {
+  double u = 0.0, v = 0.0;
+};
+
 /// The largest change of slope, along u or along v, between two points of a grid line that are at
-/// most `length` apart: features that change the slope so much within an element pass between its
-/// nodes. The place is the first of the two points. @param length > 0 [m]
-[[nodiscard]] RoadPlace largest_slope_change(const Surface& surface, double length,
+/// most an element apart: features that change the slope so much within an element pass between its
+/// nodes. The place is the first of the two points.
+[[nodiscard]] RoadPlace largest_slope_change(const Surface& surface, const ElementLengths& element,
                                              const RoadPart& part = {}) noexcept;
 
 }  // namespace rondo::road

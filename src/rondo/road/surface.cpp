@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/road/surface.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -145,6 +146,16 @@ double Surface::bilinear(double u, double v) const noexcept {
   return along(along(here[0].height, here[1].height, t), along(next[0].height, next[1].height, t),
                s) +
          pu.offset + pv.offset;
+}
+
+double Surface::bound(double u, double v) const noexcept {
+  const AxisPlace pu = u_.locate(u), pv = v_.locate(v);
+  if (pu.outside || pv.outside) return outside_height(pu, pv);
+  const Point* const here = points_.data() + pu.cell * v_.size() + pv.cell;
+  const Point* const next = here + v_.size();
+  const double highest =
+      std::max(std::max(here[0].height, here[1].height), std::max(next[0].height, next[1].height));
+  return highest + pu.offset + pv.offset;
 }
 
 SurfacePoint Surface::at(double u, double v) const noexcept {

@@ -35,9 +35,13 @@ class Surface {
   [[nodiscard]] double bilinear(double u, double v) const noexcept;
   /// The smooth surface. Not a number: as bilinear().
   [[nodiscard]] SurfacePoint at(double u, double v) const noexcept;
+  /// The highest corner of the patch at a place, above which the smooth surface does not rise there
+  /// [m]; not a number: as bilinear().
+  [[nodiscard]] double bound(double u, double v) const noexcept;
 
   [[nodiscard]] const Axis& u_axis() const noexcept { return u_; }
   [[nodiscard]] const Axis& v_axis() const noexcept { return v_; }
+  [[nodiscard]] const Edges& edges() const noexcept { return edges_; }
   /// Height at a point of the grid [m].
   [[nodiscard]] double height_at(std::size_t i, std::size_t j) const noexcept {
     return points_[i * v_.size() + j].height;

@@ -6,7 +6,7 @@
 #include "fuzz.hpp"
 #include "mutate.hpp"
 #include "rondo/case/case.hpp"
-#include "rondo/case/profile_file.hpp"
+#include "rondo/case/ground/profile_file.hpp"
 
 using namespace rondo;
 

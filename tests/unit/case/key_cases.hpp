@@ -74,6 +74,9 @@ fine = {region = "skin"}
     const std::vector<std::string> wheel{"disk.width=2.0", "disk.crown_radius=10.0",
                                          "disk.tread.circumferential_grooves=[[0.1, 0.2]]",
                                          "motion.slip_angle=0.1"};
+    const std::vector<std::string> road{
+        "disk.width=0.1", "ground.road=" RONDO_CASES "/roads/cobbles.crg",
+        "ground.road_offset=0.05", "ground.road_border=zero", "ground.fillet=0"};
     std::vector<std::string> turning = steady, slipping = steady;
     turning.insert(turning.end(), {"disk.width=2.0", "motion.turn_slip=0.1", "analysis.slip=upwind",
                                    "analysis.slip_angle_step=0.01", "analysis.step_distance=2.0"});
@@ -150,6 +153,7 @@ end = 0.2
                   {"material.region=[{layers = [1]}]"}),
         read_text(treaded(), wheel),
         read_text(base, rubs),
+        read_text(base, road),
         read_text(base, turning),
         read_text(base, slipping),
         read_text(section),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/case/profile_file.hpp"
+#include "rondo/case/ground/profile_file.hpp"
 
 #include <gtest/gtest.h>
 

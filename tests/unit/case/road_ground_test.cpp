@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/case/road_ground.hpp"
+#include "rondo/case/ground/road_ground.hpp"
 
 #include <gtest/gtest.h>
 
 #include "case_fixture.hpp"
-#include "rondo/case/profile_file.hpp"
+#include "rondo/case/ground/profile_file.hpp"
+#include "rondo/road/surface.hpp"
 #include "support/crg_files.hpp"
 
 namespace rondo::study::road_ground_test {
@@ -142,7 +143,13 @@ TEST(RoadGround, OneShapeAndPlacesOnTheRoad) {
   EXPECT_TRUE(has(file.faults({"ground.road_start=4.01"}), "(allowed: 2 to 4, u of the road)"));
   EXPECT_TRUE(has(file.faults({"ground.road_start=1.99"}), "x = 0 would not be on the road"));
   EXPECT_TRUE(has(file.faults({"ground.road_offset=2.01"}), "(allowed: -1 to 2, v of the road)"));
-  EXPECT_TRUE(has(file.faults({"ground.road_border=repeat"}), "is not one of the choices"));
+  EXPECT_TRUE(has(file.faults({"ground.road_border=reflect"}), "is not one of the choices"));
+  const std::string repeat = file.faults({"ground.road_border=repeat"});
+  EXPECT_TRUE(has(repeat,
+                  "ground.road_border = repeat: asks (\"repeat\") for what the ground of a "
+                  "plane body does not do beyond the ends of a road (allowed: \"keep\" or "
+                  "\"zero\")"))
+      << repeat;
   EXPECT_EQ(file.faults({"ground.road_start=4", "ground.road_offset=2"}), "");
   CrgParts brief = small_road();
   brief.rows.resize(2);
@@ -176,11 +183,7 @@ TEST(RoadGround, NoMorePointsThanACaseHolds) {
   EXPECT_EQ(RoadCaseFile(crg_of(parts)).faults(), "");
 }
 
-TEST(RoadGround, AWheelWithAWidthAndFlatGround) {
-  const std::string solid = RoadCaseFile().faults({"disk.width=0.1"});
-  EXPECT_TRUE(has(solid, "ground.road = \"a.crg\": a wheel with a width") &&
-              has(solid, "one section of the road as ground.profile"))
-      << solid;
+TEST(RoadGround, FlatGroundAndShapes) {
   const std::string steady =
       RoadCaseFile().faults({"analysis.kind=steady-rolling", "time.end=0.1"});
   EXPECT_TRUE(has(steady, "ground.road = \"a.crg\": steady rolling needs flat ground")) << steady;
@@ -193,6 +196,62 @@ TEST(RoadGround, AWheelWithAWidthAndFlatGround) {
       << turned;
   const std::string fillet = RoadCaseFile().faults({"ground.fillet=3"});
   EXPECT_TRUE(has(fillet, "the fillet does not fit")) << fillet;
+}
+
+const std::vector<std::string> in_space{"disk.width=0.1", "ground.fillet=0"};
+
+std::vector<std::string> and_(std::vector<std::string> settings, const std::string& more) {
+  settings.push_back(more);
+  return settings;
+}
+
+TEST(RoadGround, UnderAWheelWithAWidthTheSurfaceIsKept) {
+  const RoadCaseFile file;
+  const Case c = file.read(and_(in_space, "ground.road_offset=1"));
+  EXPECT_TRUE(is_on_road_surface(c));
+  EXPECT_EQ(c.ground->shape.profile, contact::GroundShape{}.profile);
+  EXPECT_EQ(*c.ground->road.start, 2.5);
+  EXPECT_EQ(c.ground->road.height,
+            road::Surface(*c.ground->road.read, edges_of(c.ground->road)).at(2.5, 1.0).height);
+  EXPECT_NE(c.ground->road.height, 7.375) << "that of the bilinear surface";
+  const std::string text = write_case(c);
+  EXPECT_FALSE(has(text, "profile") || has(text, "road_border")) << text;
+  const Case again = test::read_text(text);
+  EXPECT_EQ(write_case(again), text);
+  EXPECT_EQ(again.ground->road.height, c.ground->road.height);
+}
+
+TEST(RoadGround, BordersUnderAWheelWithAWidth) {
+  CrgParts parts = small_road();
+  for (const int mode : {1, 2, 3, 4}) {
+    parts.blocks = "$ROAD_CRG_OPTS\nBORDER_MODE_U = " + std::to_string(mode) + "\n$\n";
+    const Case c = RoadCaseFile(crg_of(parts)).read(in_space);
+    EXPECT_EQ(static_cast<int>(edges_of(c.ground->road).u), mode);
+    const Case repeats =
+        RoadCaseFile(crg_of(parts)).read(and_(in_space, "ground.road_border=repeat"));
+    EXPECT_EQ(edges_of(repeats.ground->road).u, road::Border::repeat);
+    EXPECT_TRUE(has(write_case(repeats), "road_border = \"repeat\""));
+  }
+  parts.blocks = "$ROAD_CRG_OPTS\nBORDER_MODE_U = 0\n$\n";
+  const std::string none = RoadCaseFile(crg_of(parts)).faults(in_space);
+  EXPECT_TRUE(
+      has(none, "a.crg asks by BORDER_MODE_U = 0 (\"none\") for what the ground of a wheel") &&
+      has(none, "ground.road_border = \"keep\", \"zero\" or \"repeat\" beside it"))
+      << none;
+}
+
+TEST(RoadGround, WhatIsRefusedUnderAWheelWithAWidth) {
+  const std::string fillet = RoadCaseFile().faults({"disk.width=0.1", "ground.fillet=0.01"});
+  EXPECT_TRUE(has(fillet, "ground.fillet = 0.01: rounds corners")) << fillet;
+  CrgParts holes = small_road();
+  holes.blocks = "$ROAD_CRG_MODS\nGRID_NAN_MODE = 0\n$\n$ROAD_CRG_OPTS\nBORDER_MODE_V = 0\n$\n";
+  holes.rows[1][2] = rondo::test::missing_height;
+  const std::string hole =
+      RoadCaseFile(crg_of(holes)).faults(and_(in_space, "ground.road_offset=1"));
+  EXPECT_TRUE(has(hole, "has no height at u = 2.5 m, v = 1 m, where x = 0")) << hole;
+  CrgParts longest = small_road();
+  longest.rows.assign(most_profile_points, {0.0, 0.0, 0.0});
+  EXPECT_EQ(RoadCaseFile(crg_of(longest)).faults(in_space), "") << "only plane ground has few rows";
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/contact/space/road_ground.hpp"
 #include "rondo/fem/finite/sector_energy.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
 #include "rondo/integrators/fused/solid/solid_cyclic_integrator.hpp"
@@ -45,6 +46,7 @@ struct Case {
   bool rest = false;      ///< the state at rest has forces of its own
   bool obstacle = false;  ///< a ramp with rounded edges, and a concave corner
   bool sharp = false;     ///< a cleat with sharp edges, shorter than an element
+  bool road = false;      ///< waves and noise that are not the same across
 };
 
 /// A displacement and a velocity that are the same for no two nodes.
@@ -159,6 +161,23 @@ void add_rubber(const Case& c, const mesh::Mesh& mesh, Model& m) {
   m.solid->swept->window.half = c.window;
 }
 
+/// 12 mm between heights that are the same for no two points, of some millimetres around 100 m.
+road::Road some_road() {
+  road::Road road;
+  road.u_first = -0.6;
+  road.u_step = 0.012;
+  for (int j = 0; j < 25; ++j) road.v.push_back(-0.15 + 0.0125 * j);
+  const std::size_t n_u = 101;
+  road.heights = some(n_u * road.v.size(), 2e-4, 0.2);
+  for (std::size_t i = 0; i < n_u; ++i)
+    for (std::size_t j = 0; j < road.v.size(); ++j)
+      road.heights[i * road.v.size() + j] +=
+          100.0 + 0.002 * std::sin(0.9 * static_cast<double>(i) + 0.7 * static_cast<double>(j));
+  road.line_height.assign(n_u, 0.0);
+  road.slope = road.banking = road.heading = {0.0};
+  return road;
+}
+
 Model model_of(const Case& c) {
   const mesh::Mesh mesh = mesh::make_wheel(c.wheel);
   test::Cornering rolling;
@@ -183,6 +202,10 @@ Model model_of(const Case& c) {
                                  mesh.boundary,
                                  mesh.tributary,
                                  edges});
+  if (c.road)  // below the height of a wheel that is in the ground at the start
+    m.contact->space = std::make_shared<contact::RoadGround>(
+        road::Surface(some_road()),
+        contact::RoadPlacing{-0.1, 0.01, c.unsteady ? 100.002 : 100.0118});
   const double end = 106.0 * m.dt;
   if (c.unsteady) {
     m.motion.angular_velocity = Table({{0.0, 32.0}, {end, 36.0}});
@@ -401,6 +424,12 @@ std::vector<Case> cases() {
   all.push_back(
       {.name = "sharp_pitches", .wheel = treaded(4, 4, {19, 0.02, 3, 1, 2}), .sharp = true});
   all.push_back({.name = "sharp_wide", .wheel = test::box_wheel(3, 12, 330), .sharp = true});
+  all.push_back({.name = "road", .friction = 0.8, .restitution = 0.3, .road = true});
+  all.push_back(
+      {.name = "road_steady", .beta = 0.0, .camber = 0.0, .unsteady = false, .road = true});
+  all.push_back({.name = "road_rim", .pressure = 2e4, .rim = true, .rest = true, .road = true});
+  all.push_back({.name = "road_window", .rim = true, .cords = true, .window = 0.4, .road = true});
+  all.push_back({.name = "road_wide", .wheel = test::box_wheel(3, 12, 330), .road = true});
   all.push_back({.name = "no_friction", .friction = 0.0});
   all.push_back({.name = "rim", .rim = true});
   all.push_back({.name = "rim_without_beta", .beta = 0.0, .restitution = 0.3, .rim = true});

@@ -101,11 +101,12 @@ TEST(RoadReport, SlopesThatChangeWithinALength) {
       test::road_by([](double u, double) { return 0.5 * u * u; }, 1.0, 0.1, 21, {-0.2, 0.0, 0.2});
   const Road across = test::road_by([](double, double v) { return 0.25 * v * v; }, 0.0, 1.0, 3,
                                     {1.0, 1.25, 1.5, 2.0, 2.25});
-  EXPECT_NEAR(largest_slope_change(Surface(along), 0.3).value, 0.3, 1e-6);
-  EXPECT_NEAR(largest_slope_change(Surface(along), 0.35).value, 0.3, 1e-6);
-  EXPECT_EQ(largest_slope_change(Surface(along), 0.05).value, 0.0);
-  EXPECT_NEAR(largest_slope_change(Surface(across), 0.5).value, 0.25, 1e-6);
-  const RoadPlace part = largest_slope_change(Surface(across), 1.0, {.v_from = 1.6, .v_to = 1.7});
+  EXPECT_NEAR(largest_slope_change(Surface(along), {0.3, 0.3}).value, 0.3, 1e-6);
+  EXPECT_NEAR(largest_slope_change(Surface(along), {0.35, 0.35}).value, 0.3, 1e-6);
+  EXPECT_EQ(largest_slope_change(Surface(along), {0.05, 0.05}).value, 0.0);
+  EXPECT_NEAR(largest_slope_change(Surface(across), {0.5, 0.5}).value, 0.25, 1e-6);
+  const RoadPlace part =
+      largest_slope_change(Surface(across), {1.0, 1.0}, {.v_from = 1.6, .v_to = 1.7});
   EXPECT_NEAR(part.value, 0.25, 1e-6);
   EXPECT_EQ(part.v, 1.5);
 }

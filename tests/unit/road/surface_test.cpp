@@ -291,4 +291,24 @@ TEST(RoadSurface, MissingHeightsReachAsFarAsTheirCells) {
   EXPECT_FALSE(std::isnan(surface.at(3.3, 0.3).height));
 }
 
+/// Corners of the patch bound it, at borders too.
+TEST(RoadSurface, DoesNotRiseAboveItsBound) {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> u(2.0, 6.5), v(-2.5, 2.5);
+  for (const Border border :
+       {Border::none, Border::zero, Border::keep, Border::repeat, Border::reflect})
+    for (const auto& across : {even_v, uneven_v}) {
+      const Surface surface(rough_road(across, 5), {border, border, 0.01, -0.02});
+      int closest = 0;
+      for (int k = 0; k < 4000; ++k) {
+        const double at_u = u(random), at_v = v(random), bound = surface.bound(at_u, at_v),
+                     height = surface.at(at_u, at_v).height;
+        ASSERT_EQ(std::isnan(bound), std::isnan(height)) << at_u << ' ' << at_v;
+        EXPECT_FALSE(height > bound + 1e-15) << at_u << ' ' << at_v;
+        closest += height > bound - 0.02 ? 1 : 0;
+      }
+      EXPECT_GT(closest, 50);
+    }
+}
+
 }  // namespace surface_test

@@ -11,6 +11,7 @@
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/ground/road_lines.hpp"
 #include "rondo/analysis/build/ground/small_ground.hpp"
+#include "rondo/analysis/build/ground/wheel_road.hpp"
 #include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/analysis/build/physical.hpp"
@@ -336,6 +337,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared, Steps steps) {
                    s.probes.size() == (s.model.solid ? 0 : c.output.probes.size()),
                s.model.n_nodes(), s.mesh.n_nodes(), s.probes.size());  // make_body() has been
   set_motion_and_friction(c, s.model);
+  set_wheel_road(c, s);
   const int ratio = s.model.subdomains ? s.model.subdomains->ratio : 1;
   s.model.dt = ratio * choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/analysis/build/ground/ground_inside.hpp"
@@ -13,6 +14,7 @@
 #include "rondo/contact/intrusion.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -71,25 +73,33 @@ struct Depth {
   }
 };
 
-/// (n) fixed frame; of a wheel in three dimensions along t1 and n, where the ground is [m].
-std::vector<Vec2> start_positions(const Setup& s) {
+/// (n) fixed frame; of a wheel in three dimensions along t1, n and t2 [m].
+std::vector<Vec3> start_positions(const Setup& s) {
   const Vec2 center = s.model.motion.center(0.0).plane();
   if (s.model.solid) return solid_positions(s);
   const std::span<const Vec2> u = s.displacement.plane();
-  std::vector<Vec2> x(s.model.n_nodes());
+  std::vector<Vec3> x(s.model.n_nodes());
   for (std::size_t k = 0; k < x.size(); ++k)
     x[k] = (in_fixed_frame(s.model, k) ? Vec2{} : center) + s.model.reference[k] + u[k];
   return x;
 }
 
-Depth deepest_start(const Setup& s, const std::vector<double>& size, const std::vector<Vec2>& x) {
+/// (n) where the profile of the ground is drawn [m]
+std::vector<Vec2> in_plane(const dynamics::ContactModel& contact, const std::vector<Vec3>& x) {
+  std::vector<Vec2> out;
+  std::ranges::transform(x, std::back_inserter(out),
+                         [&](Vec3 place) { return on_profile(contact, place); });
+  return out;
+}
+
+Depth deepest_start(const Setup& s, const std::vector<double>& size, const std::vector<Vec3>& x) {
   const dynamics::ContactModel& contact = *s.model.contact;
   Depth depth;
   RONDO_DEMAND(size.size() == s.model.n_nodes() && x.size() == s.model.n_nodes(), size.size(),
                x.size(), s.model.n_nodes());
   for (const int candidate : contact.nodes) {
     const std::size_t node = at(candidate);
-    depth.add(-contact.ground.distance(x[node]), size[node], in_fixed_frame(s.model, node));
+    depth.add(-distance_in_space(contact, x[node]), size[node], in_fixed_frame(s.model, node));
   }
   return depth;
 }
@@ -104,7 +114,7 @@ std::string other_start(const Case& c, bool free) {
 
 /// A node deeper than half an element would get an impulse that means nothing: refused. One less
 /// deep is held where it is, for the law acts on velocities: said. Returns the largest depth [m].
-double check_nodes(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
+double check_nodes(const Case& c, const std::vector<double>& size, const std::vector<Vec3>& x,
                    Setup& s) {
   const Depth depth = deepest_start(s, size, x);
   if (depth.worst > 0.5)
@@ -132,7 +142,8 @@ double check_nodes(const Case& c, const std::vector<double>& size, const std::ve
 }
 
 /// The bend of the ground that is deepest behind an edge around a wheel in three dimensions, over
-/// the length of the edge. Its side view has no other cells that the ground may stand in.
+/// the length of the edge. Its side view has no other cells that the ground may stand in. A road
+/// has no bends: where it does not fit the elements, wheel_road.hpp warns.
 GroundInside find_bend_inside(const Setup& s, const std::vector<Vec2>& x) {
   GroundInside out;
   for (const auto& [a, b] : s.model.contact->edges) {
@@ -210,9 +221,10 @@ void check_start(const Case& c, Setup& s) {
                    s.displacement.components() == s.model.components(),
                s.displacement.size(), s.model.n_nodes());
   const std::vector<double> size = element_sizes(s.mesh);
-  const std::vector<Vec2> x = start_positions(s);
+  const std::vector<Vec3> places = start_positions(s);
+  const std::vector<Vec2> x = in_plane(*s.model.contact, places);
   if (s.model.contact) {
-    const double told = check_nodes(c, size, x, s);
+    const double told = check_nodes(c, size, places, s);
     check_ground_inside(c, size, x, told, s);
   }
   if (s.mesh.is_solid()) return;  // its elements lie beside each other as they are made

@@ -18,6 +18,7 @@
 #include "rondo/analysis/build/viscosity_lines.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::study {
 namespace {
@@ -187,7 +188,7 @@ void tell_materials(const Case& c, const std::vector<fem::Material>& materials, 
 double deflection_by_motion(const Case& c, const Setup& s, const Wall& wall) {
   double deflection = -std::numeric_limits<double>::infinity();
   each_time(c, [&](double t) {
-    const double gap = s.model.contact->ground.distance(c.motion.center(t).plane());
+    const double gap = dynamics::distance_in_space(*s.model.contact, c.motion.center(t));
     deflection = std::max(deflection, wall.radius - gap);
   });
   return deflection;
@@ -230,7 +231,7 @@ void tell_height(const Case& c, double deflection, const RoundBody& body, const 
 
 /// How deep a rim comes that forces move, the run looks (HubWatch).
 void tell_free_height(const Case& c, const Setup& s, const Wall& wall, const Tell& to) {
-  const double start = s.model.contact->ground.distance(c.motion.center(0.0).plane());
+  const double start = dynamics::distance_in_space(*s.model.contact, c.motion.center(0.0));
   to.warn(starts_far_above(start, wall.radius));
   if (const std::optional<double> load = load_on_ground(c, s.model))
     tell_load(c, "rim.force_y", *load, {s.mesh, s.materials, s.inflation}, wall, to);

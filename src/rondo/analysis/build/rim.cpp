@@ -9,6 +9,7 @@
 #include "rondo/core/column.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::study {
 namespace {
@@ -160,9 +161,9 @@ HubWatch::HubWatch(const Setup& setup) : setup_(setup) {
   held_ = held_radius(setup.mesh);
 }
 
-HubWatch::Seen HubWatch::look(Vec2 center, double time) {
+HubWatch::Seen HubWatch::look(Vec3 center, double time) {
   if (!wall_ && held_ == 0.0) return {};
-  const double above = setup_.model.contact->ground.distance(center);
+  const double above = dynamics::distance_in_space(*setup_.model.contact, center);
   if (!wall_ && above < held_)
     return {
         {},

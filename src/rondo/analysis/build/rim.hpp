@@ -37,9 +37,9 @@ class HubWatch {
   struct Seen {
     std::string warning, trouble;  ///< empty: nothing new, all well
   };
-  /// @param center [m] @param time [s]. Warns once, above deep_share of the wall; the rim in the
-  /// ground is trouble.
-  [[nodiscard]] Seen look(Vec2 center, double time);
+  /// @param center along t1, n and t2 [m] @param time [s]. Warns once, above deep_share of the
+  /// wall; the rim in the ground is trouble.
+  [[nodiscard]] Seen look(Vec3 center, double time);
 
  private:
   const Setup& setup_;

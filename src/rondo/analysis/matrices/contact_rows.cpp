@@ -45,6 +45,12 @@ ContactRows contact_rows(const Case& c, const dynamics::Model& model, const Fram
   if (!model.contact)
     throw case_error(c, "ground", "there is none, and so there are no contact rows",
                      "[ground] with profile = \"flat\", or another one");
+  if (is_on_road_surface(c))
+    throw case_error(
+        c, "ground.road",
+        "contact rows are those of a ground that is the same all across a wheel with a "
+        "width, and a road is not",
+        "the section of the road as ground.profile (docs/roads.md, section 4)");
   RONDO_DEMAND(u.empty() || (u.size() == model.n_nodes() && u.components == model.components()),
                u.size(), u.components, model.n_nodes());
   const std::size_t components = model.components();

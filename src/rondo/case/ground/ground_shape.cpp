@@ -36,6 +36,15 @@ void check_obstacles(CaseValues& in, const std::vector<contact::Obstacle>& obsta
   }
 }
 
+void check_road(CaseValues& in, const Case& c) {
+  if (is_on_road_surface(c) && !c.ground->obstacles.empty())
+    in.refuse(
+        item_of(list, 0),
+        "a road under a wheel with a width carries no obstacles: its surface has a slope of 1 "
+        "at the most",
+        "ground.profile in its place; or the obstacle in the heights of the file");
+}
+
 /// Edges at an angle are those of one profile, seen normal to them: the ground below them is level.
 void check_angles(CaseValues& in, const Case& c) {
   const auto& obstacles = c.ground->obstacles;
@@ -98,10 +107,11 @@ void make_shape(CaseValues& in, Case& c) {
   const std::vector<contact::Obstacle> obstacles = normal_to_edges(c.ground->obstacles);
   check_obstacles(in, obstacles, base);
   check_angles(in, c);
+  check_road(in, c);
   if (!all_good(in, *c.ground)) return;
   contact::GroundShape whole = contact::with_obstacles(base, obstacles);
   check_whole(in, whole);
-  if (!in.good({list})) return;
+  if (!in.good({list}) || is_on_road_surface(c)) return;
   c.ground->shape = std::move(whole);
   c.ground->edge_angle = c.ground->obstacles.front().angle;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Where sharp corners of the ground touch the edges around a wheel in three dimensions
 /// (docs/wheel3d.md). A corner of the profile is a line along the edges of the
-/// ground (contact/edge_axes.hpp), mostly t2. It crosses the edges that join
+/// ground (contact/space/edge_axes.hpp), mostly t2. It crosses the edges that join
 /// the nodes around the wheel, each of which it touches as a plane body's (docs/theory.md, 4.8),
 /// seen along the line: between two such edges the tread is ruled, so that the line is nowhere
 /// deeper than at one of them.

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "rondo/contact/cone.hpp"
-#include "rondo/contact/space_ground.hpp"
+#include "rondo/contact/space/space_ground.hpp"
 #include "rondo/core/vec3.hpp"
 #include "rondo/model/contact_node.hpp"
 

@@ -3,7 +3,7 @@
 /// where that is absent the profile of ContactModel::ground, extruded along its edges. Places are
 /// (t1, n, t2) [m].
 #pragma once
-#include "rondo/contact/space_ground.hpp"
+#include "rondo/contact/space/space_ground.hpp"
 #include "rondo/model/model.hpp"
 
 namespace rondo::dynamics {

@@ -18,6 +18,7 @@
 #include "rondo/core/limits/memory_limits.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/hash.hpp"
+#include "rondo/io/road_hash.hpp"
 #include "rondo/output/run_files.hpp"
 #include "rondo/study/sweep/members/member_blocks.hpp"
 #include "rondo/study/sweep/members/member_faults.hpp"
@@ -92,6 +93,12 @@ nlohmann::json faults_of(const InputError& error) {
   return {{"faults", j}};
 }
 
+/// Hash of the road under a wheel in three dimensions, wherever its file is; empty: there is none,
+/// or the case has its points.
+std::string road_hash_of(const Case& c) {
+  return is_on_road_surface(c) ? io::road_hash(*c.ground->road.read) : std::string();
+}
+
 /// The data of a member that are known from its case alone.
 nlohmann::json read_member(const SweepStudy& study, const PlannedMember& member,
                            MeshHashes& meshes) {
@@ -99,7 +106,8 @@ nlohmann::json read_member(const SweepStudy& study, const PlannedMember& member,
     const Case c = case_of(study, member);
     check_window(study, c);
     return {{"columns", type_of(c).figures.columns.size()},
-            {"hash", hash_of(write_case(kept_case(c)) + meshes.of(c))},  // wherever it is
+            {"hash",
+             hash_of(write_case(kept_case(c)) + meshes.of(c) + road_hash_of(c))},  // wherever it is
             {"body", hash_of(body_key(c) + meshes.of(c))},
             {"is_linear", !has_large_strains(c)},
             {"finds_modes", type_of(c).finds_modes},

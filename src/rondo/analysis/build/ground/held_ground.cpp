@@ -9,6 +9,7 @@
 #include "rondo/analysis/build/bodies.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::study {
 namespace {
@@ -56,8 +57,9 @@ std::string swapped(const Case& c, const MeshCase& file) {
 /// How deep held nodes are at a time [m].
 double depth_at(const Setup& s, double reach, double time) {
   const contact::Ground& ground = s.model.contact->ground;
-  const Vec2 center = s.model.motion.center(time).plane();
-  const double above = ground.distance(center);
+  const Vec3 axle = s.model.motion.center(time);
+  const Vec2 center = axle.plane();
+  const double above = dynamics::distance_in_space(*s.model.contact, axle);
   if (s.mesh.is_solid() || above >= reach) return reach - above;
   const double angle = s.model.motion.angle(time);
   const Complex turn{std::cos(angle), std::sin(angle)};

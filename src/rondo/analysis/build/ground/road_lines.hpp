@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  What `rondo check` tells about a measured road under a plane body (docs/roads.md,
-/// section 3).
+/// section 3); of a wheel in three dimensions wheel_road.hpp does.
 #pragma once
 #include "rondo/case/setup.hpp"
 

@@ -176,16 +176,15 @@ void make_solid_body(const Case& c, int threads, Setup& s) {
   find_solid_step(c, stiffest, s);
 }
 
-std::vector<Vec2> solid_positions(const Setup& s) {
+std::vector<Vec3> solid_positions(const Setup& s) {
   const Model& m = s.model;
   const GroundFrame ground(m.motion.camber);
   const Vec3 center = m.motion.center(0.0);
   const std::span<const Vec3> u = s.displacement.space();
   RONDO_DEMAND(m.solid && u.size() == m.n_nodes(), u.size(), m.n_nodes());
-  std::vector<Vec2> x;
+  std::vector<Vec3> x;
   for (std::size_t k = 0; k < u.size(); ++k)
-    x.push_back(
-        (center + ground.from_wheel(Vec3(m.reference[k], m.solid->axial[k]) + u[k])).plane());
+    x.push_back(center + ground.from_wheel(Vec3(m.reference[k], m.solid->axial[k]) + u[k]));
   return x;
 }
 

@@ -9,8 +9,8 @@ namespace rondo::study {
 /// @throws InputError: as add_pressures()
 void make_solid_body(const Case& c, int threads, Setup& s);
 
-/// (n) positions at the start along t1 and n, in which the ground is [m].
-std::vector<Vec2> solid_positions(const Setup& s);
+/// (n) positions at the start along t1, n and t2 [m].
+std::vector<Vec3> solid_positions(const Setup& s);
 
 /// The pressures of the case on its surfaces. @throws InputError: no such curve in the section, or
 /// one that is held

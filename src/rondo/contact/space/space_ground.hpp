@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "rondo/contact/edge_axes.hpp"
+#include "rondo/contact/space/edge_axes.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/core/vec3.hpp"
 

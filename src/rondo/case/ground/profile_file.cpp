@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/case/profile_file.hpp"
+#include "rondo/case/ground/profile_file.hpp"
 
 #include <fmt/format.h>
 
@@ -72,7 +72,7 @@ bool is_header(const std::vector<Token>& tokens) {
 
 constexpr const char* is_road = "is an OpenCRG road file: heights over a surface, no profile";
 constexpr const char* instead_of_road =
-    "ground.road = \"NAME.crg\" in place of ground.profile under a plane body, or two columns, x "
+    "ground.road = \"NAME.crg\" in place of ground.profile, or two columns, x "
     "and y in m: one section along the road as a CSV file (docs/roads.md)";
 
 /// Keywords that begin the lines in the header of an OpenCRG file.
