@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/contact/friction_table.hpp"
 #include "rondo/fem/finite/sector_energy.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
 #include "rondo/integrators/fused/solid/solid_cyclic_integrator.hpp"
@@ -45,6 +46,7 @@ struct Case {
   bool rest = false;      ///< the state at rest has forces of its own
   bool obstacle = false;  ///< a ramp with rounded edges, and a concave corner
   bool sharp = false;     ///< a cleat with sharp edges, shorter than an element
+  bool rubs = false;      ///< friction over slip speed, pressure and place
 };
 
 /// A displacement and a velocity that are the same for no two nodes.
@@ -159,6 +161,17 @@ void add_rubber(const Case& c, const mesh::Mesh& mesh, Model& m) {
   m.solid->swept->window.half = c.window;
 }
 
+/// It grows with the slip: friction that falls makes round-off grow, too.
+contact::Friction friction_of_case(const Case& c) {
+  if (!c.rubs) return c.friction;
+  return contact::friction_of(
+      {.coefficient = c.friction,
+       .slip = {{0.0, 0.8}, {0.4, 1.0}, {3.0, 1.2}},
+       .pressure_exponent = -0.2,
+       .pressure_reference = 1.0e5,
+       .patches = {{-1.0, 0.01, contact::Side::left, 0.5}, {0.0, 9.0, contact::Side::right, 1.4}}});
+}
+
 Model model_of(const Case& c) {
   const mesh::Mesh mesh = mesh::make_wheel(c.wheel);
   test::Cornering rolling;
@@ -179,7 +192,7 @@ Model model_of(const Case& c) {
   const std::vector<mesh::Edge> edges = mesh::rolling_edges(mesh, "tread");
   const double spacing = c.sharp ? mesh::longest_edge(mesh.coordinates, edges) : 0.0;
   m.contact.emplace(ContactModel{contact::Ground(ground, spacing),
-                                 {.friction = c.friction, .restitution = c.restitution},
+                                 {.friction = friction_of_case(c), .restitution = c.restitution},
                                  mesh.boundary,
                                  mesh.tributary,
                                  edges});
@@ -403,6 +416,15 @@ std::vector<Case> cases() {
       {.name = "sharp_pitches", .wheel = treaded(4, 4, {19, 0.02, 3, 1, 2}), .sharp = true});
   all.push_back({.name = "sharp_wide", .wheel = test::box_wheel(3, 12, 330), .sharp = true});
   all.push_back({.name = "no_friction", .friction = 0.0});
+  all.push_back({.name = "rubbing", .friction = 0.5, .rubs = true});
+  all.push_back({.name = "rubbing_rim", .beta = 0.0, .friction = 0.5, .rim = true, .rubs = true});
+  all.push_back({.name = "rubbing_wide",
+                 .wheel = test::box_wheel(3, 12, 330),
+                 .friction = 0.5,
+                 .camber = 0.0,
+                 .rubs = true});
+  all.push_back(
+      {.name = "rubbing_window", .friction = 0.5, .cords = true, .window = 0.4, .rubs = true});
   all.push_back({.name = "rim", .rim = true});
   all.push_back({.name = "rim_without_beta", .beta = 0.0, .restitution = 0.3, .rim = true});
   all.push_back({.name = "rim_steady", .camber = 0.0, .unsteady = false, .rim = true});
