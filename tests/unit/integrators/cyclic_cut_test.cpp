@@ -78,6 +78,7 @@ std::vector<test::RollingCase> cases() {
   // A step up to the middle of a chunk: its corner is held within a pass of several steps.
   all.push_back(test::sharp(test::everything("columns_390_step", 4, 390)));
   all.back().ground->profile = {{-10, 0}, {0.1665, 0}, {0.1665, 0.03}, {10, 0.03}};
+  for (const std::size_t i : {0U, 3U, 5U, 7U}) all.push_back(test::rubbing(all[i]));
   for (test::RollingCase& c : all) c.disk.motion.start_x = 0.02;  // in contact from the start
   return all;
 }

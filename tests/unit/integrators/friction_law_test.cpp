@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// Friction that is no constant, in the steps that take it: the general one, also on a loaded rim
-/// with implicit elements and with contact nodes without mass, and (bodies_test.cpp) that of
-/// bodies; wheels in three dimensions: solid_step_test.cpp. The laws are of this test.
+/// Friction that is no constant, in the readable step: also on a loaded rim, with implicit elements
+/// and with contact nodes without mass; wheels in three dimensions: solid_step_test.cpp. The fast
+/// steps are held against it with tables of friction (integrator_test.cpp, bodies_test.cpp,
+/// solid_fast_test.cpp). The laws are of this test.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -177,7 +178,7 @@ test::RollingCase rolling() {
 
 TEST(FrictionLaw, IsAskedForEveryContactOfARollingDisk) {
   const test::Built b = test::build(rolling());
-  EXPECT_EQ(step_of(b.model), StepKind::bodies);  // to which bodies_test.cpp holds the general one
+  EXPECT_EQ(step_of(b.model), StepKind::sparse);  // which integrator_test.cpp holds to this one
   EXPECT_GT(expect_the_law(b.model,
                            start(b.model, test::some_displacement(b), test::some_velocity(b)), 800),
             500);
@@ -185,7 +186,7 @@ TEST(FrictionLaw, IsAskedForEveryContactOfARollingDisk) {
 
 TEST(FrictionLaw, IsAskedForEveryContactOfADiskOnALoadedRim) {
   const test::Built b = test::build(test::on_rim(rolling(), true, true, true));
-  EXPECT_EQ(step_of(b.model), StepKind::wheel);
+  EXPECT_EQ(step_of(b.model), StepKind::sparse);
   EXPECT_GT(expect_the_law(b.model,
                            start(b.model, test::some_displacement(b), test::some_velocity(b)), 800),
             500);
@@ -251,17 +252,23 @@ TEST(FrictionLaw, GoesOnToTheSameBits) {
   EXPECT_EQ(a.v, c.v);
 }
 
-TEST(FrictionLaw, IsRefusedByStepsWithOneCoefficient) {
-  const test::Built b = test::build(rolling());
-  const Features all = features_of(b.model);
-  EXPECT_TRUE((all & has::friction_law) != 0);
-  EXPECT_FALSE(can(StepKind::cyclic, all) || can(StepKind::sparse, all));
+TEST(FrictionLaw, IsLeftToTheReadableStepWhereOthersSolveSomeOfTheContacts) {
   const auto kind = [](Features with) { return choose_step(has::friction_law | with)->kind; };
-  EXPECT_EQ(kind(has::three_dimensions), StepKind::solid);
-  EXPECT_EQ(kind(has::three_dimensions | has::loaded_rim), StepKind::solid_wheel);
+  EXPECT_EQ(kind(0), StepKind::cyclic);
+  EXPECT_EQ(kind(has::assembled), StepKind::sparse);
+  EXPECT_EQ(kind(has::loaded_rim), StepKind::cyclic);
+  EXPECT_EQ(kind(has::three_dimensions), StepKind::solid_cyclic);
+  EXPECT_EQ(kind(has::three_dimensions | has::loaded_rim), StepKind::solid_cyclic);
+  EXPECT_EQ(kind(has::sharp_corners), StepKind::bodies);
+  EXPECT_EQ(kind(has::sharp_corners | has::loaded_rim), StepKind::wheel);
+  EXPECT_EQ(kind(has::sharp_corners | has::three_dimensions), StepKind::solid);
+  EXPECT_EQ(kind(has::implicit), StepKind::general);
   EXPECT_EQ(kind(has::massless), StepKind::general);
   EXPECT_EQ(choose_step(has::friction_law | has::reduced), nullptr);
   EXPECT_EQ(choose_step(has::friction_law | has::hati | has::other_scheme), nullptr);
+  test::RollingCase with_corner = test::sharp(test::everything("", 3, 60));
+  with_corner.law = {Friction(some_law), 0.0};
+  const test::Built b = test::build(with_corner);
   const State at_start = start(b.model, test::some_displacement(b), test::some_velocity(b));
   EXPECT_DEATH(SparseIntegrator(b.model, at_start, kernel_table()), "has_friction_law");
 }

@@ -162,6 +162,8 @@ std::vector<test::Built> disks() {
       test::build(test::on_rim(ledge, false, true, true)),
       test::build(
           test::on_rim(test::everything("", 3, mesh::Tread{20, 0.02, 3, 1, 2}), false, true, true)),
+      test::build(test::rubbing(test::everything("", 4, 61))),
+      test::build(test::on_rim(test::rubbing(test::everything("", 4, 61)), true, true, true)),
       implicit(test::everything("", 4, 61), {2}),
       implicit(test::everything("", 4, 61), {4})};
   for (const test::RollingCase& c : test::massless_cases()) all.push_back(test::build(c));
@@ -176,6 +178,7 @@ class Integrators : public testing::TestWithParam<StiffnessOperator> {};
 TEST_P(Integrators, SameBitsForAnyNumberOfThreadsAndFromRunToRun) {
   std::vector<test::Built> all = disks();
   all.push_back(test::build(test::everything("", 6, 240)));  // work for every thread
+  all.push_back(test::build(test::rubbing(test::everything("", 6, 240))));
   for (test::Built& b : all)
     if (!b.model.rim && !has_massless_contact(b.model)) test::add_pressures(b);
   for (const test::Built& b : all) {

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "rondo/contact/friction_table.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 #include "support/models.hpp"
 
@@ -67,6 +68,20 @@ inline RollingCase sharp(RollingCase c) {
   c.ground->fillet = 0.0;
   return c;
 }
+/// The same with friction over slip speed, pressure and place: in and beyond the bounds of each. It
+/// grows with the slip: friction that falls makes round-off grow, too. No two facets hold a node at
+/// once: round-off says how much of the pressure each of them then has.
+inline RollingCase rubbing(RollingCase c) {
+  c.name += "_rubbing";
+  c.ground = ledge();
+  c.law.friction = contact::friction_of(
+      {.coefficient = 0.5,
+       .slip = {{0.0, 0.8}, {0.4, 1.0}, {3.0, 1.2}},
+       .pressure_exponent = -0.2,
+       .pressure_reference = 2.0e5,
+       .patches = {{-0.03, 0.06, contact::Side::both, 0.5}, {0.1, 9.0, contact::Side::both, 1.4}}});
+  return c;
+}
 /// With arcs that are smaller than the nodes are apart.
 inline RollingCase small_arcs(RollingCase c) {
   c.name += "_small_arcs";
@@ -120,6 +135,8 @@ inline std::vector<RollingCase> wheel_cases() {
   for (const RollingCase& c : {undamped, flying, weightless, everything("treaded", 3, tread),
                                everything("columns_100", 1, 100)})
     all.push_back(on_rim(c, true, true, true));
+  all.push_back(on_rim(rubbing(smooth), true, true, true));
+  all.push_back(on_rim(rubbing(everything("treaded", 3, tread)), false, true, true));
   return all;
 }
 
@@ -189,6 +206,10 @@ inline std::vector<RollingCase> rolling_cases() {
     all.push_back(everything("columns_" + std::to_string(n), n == 100 ? 1 : 4, n));
   for (const int n : {3, 9})  // polygons: not to be rolled over the ground
     all.emplace_back(everything("columns_" + std::to_string(n), 3, n)).ground.reset();
+  all.push_back(rubbing(everything("smooth", 6, 90)));
+  all.push_back(rubbing(everything("treaded", 3, tread)));
+  all.push_back(rubbing(everything("columns_61_undamped", 4, 61)));
+  all.back().disk.alpha = all.back().disk.beta = 0.0;
   return all;
 }
 

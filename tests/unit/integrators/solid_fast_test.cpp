@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "rondo/contact/friction_table.hpp"
 #include "rondo/contact/space/road_ground.hpp"
 #include "rondo/fem/finite/sector_energy.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
@@ -47,6 +48,8 @@ struct Case {
   bool obstacle = false;  ///< a ramp with rounded edges, and a concave corner
   bool sharp = false;     ///< a cleat with sharp edges, shorter than an element
   bool road = false;      ///< waves and noise that are not the same across
+  bool rubs = false;      ///< friction over slip speed, pressure and place
+  double turned = 0.0;    ///< the edges of the ground, out of t2                     [rad]
 };
 
 /// A displacement and a velocity that are the same for no two nodes.
@@ -178,6 +181,17 @@ road::Road some_road() {
   return road;
 }
 
+/// It grows with the slip: friction that falls makes round-off grow, too.
+contact::Friction friction_of_case(const Case& c) {
+  if (!c.rubs) return c.friction;
+  return contact::friction_of(
+      {.coefficient = c.friction,
+       .slip = {{0.0, 0.8}, {0.4, 1.0}, {3.0, 1.2}},
+       .pressure_exponent = -0.2,
+       .pressure_reference = 1.0e5,
+       .patches = {{-1.0, 0.01, contact::Side::left, 0.5}, {0.0, 9.0, contact::Side::right, 1.4}}});
+}
+
 Model model_of(const Case& c) {
   const mesh::Mesh mesh = mesh::make_wheel(c.wheel);
   test::Cornering rolling;
@@ -198,10 +212,11 @@ Model model_of(const Case& c) {
   const std::vector<mesh::Edge> edges = mesh::rolling_edges(mesh, "tread");
   const double spacing = c.sharp ? mesh::longest_edge(mesh.coordinates, edges) : 0.0;
   m.contact.emplace(ContactModel{contact::Ground(ground, spacing),
-                                 {.friction = c.friction, .restitution = c.restitution},
+                                 {.friction = friction_of_case(c), .restitution = c.restitution},
                                  mesh.boundary,
                                  mesh.tributary,
                                  edges});
+  m.contact->axes = contact::EdgeAxes(c.turned);
   if (c.road)  // below the height of a wheel that is in the ground at the start
     m.contact->space = std::make_shared<contact::RoadGround>(
         road::Surface(some_road()),
@@ -424,6 +439,9 @@ std::vector<Case> cases() {
   all.push_back(
       {.name = "sharp_pitches", .wheel = treaded(4, 4, {19, 0.02, 3, 1, 2}), .sharp = true});
   all.push_back({.name = "sharp_wide", .wheel = test::box_wheel(3, 12, 330), .sharp = true});
+  all.push_back({.name = "sharp_turned", .sharp = true, .turned = 0.5});
+  all.push_back({.name = "sharp_turned_rim", .rim = true, .sharp = true, .turned = -0.4});
+  all.push_back({.name = "obstacle_turned", .obstacle = true, .turned = -0.3});
   all.push_back({.name = "road", .friction = 0.8, .restitution = 0.3, .road = true});
   all.push_back(
       {.name = "road_steady", .beta = 0.0, .camber = 0.0, .unsteady = false, .road = true});
@@ -431,6 +449,15 @@ std::vector<Case> cases() {
   all.push_back({.name = "road_window", .rim = true, .cords = true, .window = 0.4, .road = true});
   all.push_back({.name = "road_wide", .wheel = test::box_wheel(3, 12, 330), .road = true});
   all.push_back({.name = "no_friction", .friction = 0.0});
+  all.push_back({.name = "rubbing", .friction = 0.5, .rubs = true});
+  all.push_back({.name = "rubbing_rim", .beta = 0.0, .friction = 0.5, .rim = true, .rubs = true});
+  all.push_back({.name = "rubbing_wide",
+                 .wheel = test::box_wheel(3, 12, 330),
+                 .friction = 0.5,
+                 .camber = 0.0,
+                 .rubs = true});
+  all.push_back(
+      {.name = "rubbing_window", .friction = 0.5, .cords = true, .window = 0.4, .rubs = true});
   all.push_back({.name = "rim", .rim = true});
   all.push_back({.name = "rim_without_beta", .beta = 0.0, .restitution = 0.3, .rim = true});
   all.push_back({.name = "rim_steady", .camber = 0.0, .unsteady = false, .rim = true});

@@ -80,7 +80,7 @@ TEST(StepTable, ChoosesTheFastestStep) {
   EXPECT_EQ(kind(has::three_dimensions | has::nonlinear_cords | has::nonlinear_ogden),
             StepKind::solid);
   EXPECT_EQ(kind(has::three_dimensions | has::loaded_rim | has::friction_law),
-            StepKind::solid_wheel);
+            StepKind::solid_cyclic);
 }
 
 TEST(StepTable, TellsWhyNotTheFasterSteps) {
@@ -90,9 +90,10 @@ TEST(StepTable, TellsWhyNotTheFasterSteps) {
   EXPECT_EQ(step_text(has::body_contact | has::implicit),
             "general (not fused cyclic, fused sparse: contact between bodies; not fused bodies: "
             "implicit elements)");
-  EXPECT_EQ(step_text(has::three_dimensions | has::loaded_rim | has::friction_law),
-            "general 3-D on a loaded rim (not fused 3-D cyclic: friction that is not constant; not "
-            "general 3-D: rim that forces move)");
+  EXPECT_EQ(
+      step_text(has::three_dimensions | has::loaded_rim | has::friction_law | has::sharp_corners),
+      "general 3-D on a loaded rim (not fused 3-D cyclic: friction that is not constant, "
+      "with sharp corners of the ground; not general 3-D: rim that forces move)");
 }
 
 }  // namespace

@@ -25,6 +25,13 @@ void refuse_nonlinear(const Case& c) {
                    "\"none\"; rondo run with nonlinear cords gives the load at a height");
 }
 
+void refuse_friction_law(const Case& c) {
+  if (!c.ground || c.ground->friction.is_constant()) return;
+  throw case_error(c, "ground.friction",
+                   "--standing takes one coefficient of friction for all contacts",
+                   "a number ground.friction, and no [[ground.patch]]");
+}
+
 double ground_height(const Case& c, double radius) {
   if (!c.ground)
     throw case_error(c, "ground", "there is no ground to stand on",
@@ -96,6 +103,7 @@ void refuse(const Case& c, const statics::RollingSolution& found, double lowest,
 StandingWheel standing_wheel(const Case& c, const mesh::Mesh& mesh, std::span<const double> mass,
                              const fem::SolidSector& sector) {
   refuse_nonlinear(c);
+  refuse_friction_law(c);
   const std::optional<Wall> wall = wall_of(mesh);
   const statics::RollingDrive drive =
       drive_of(c, ground_height(c, wall ? wall->radius : c.disk.outer_radius));

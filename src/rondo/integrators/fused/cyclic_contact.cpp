@@ -60,9 +60,10 @@ void CyclicChunk::find_touching(const Work& work, int a) noexcept {
     const contact::Touches touches = ground.touches(contact.center + contact.rotation * arm);
     if (touches.count == 0) continue;
     if (work.step->held && work.step->held[candidate_at(a, c)]) continue;
-    touching_.push_back(
-        {a, c, touches, at(a, field_v, c), plan_.keeps_force ? at(a, field_force, c) : Vec2{}});
+    touching_.push_back({a, c, touches, at(a, field_v, c),
+                         plan_.keeps_force ? at(a, field_force, c) : Vec2{}, kept_impulse(a, c)});
   }
+  forget_impulses(a, work.extent);
 }
 
 /// Adds to the sums what a contact's impulse changes, and puts the node where it leaves it.
@@ -93,11 +94,13 @@ void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
                          model_.contact->tributary[k],
                          frame * (Vec2{row.x, row.y} + u),
                          frame * before,
-                         frame * at(t.row, field_v, t.column)};
+                         frame * at(t.row, field_v, t.column),
+                         pressures_before(t, model_.contact->tributary[k])};
   std::array<ActiveContact, 2> contacts;
   const std::span active(contacts.data(), static_cast<std::size_t>(t.touches.count));
   ContactReport report;
   const Vec2 after = solve_contacts(*work.step->contact, node, t.touches, active, report);
+  keep_impulse(t, active);
   // The neighbour reports the contacts of its own nodes.
   PartialStep* part = is_own(t.column) ? &part_of(work.place, t.column) : nullptr;
   take_impulse(work, t, node, after, part ? &part->sums : nullptr);

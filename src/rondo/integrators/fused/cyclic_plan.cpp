@@ -162,6 +162,7 @@ CyclicPlan make_cyclic_plan(const Model& model, const CyclicTuning& tuning) {
   plan.wheel = model.rim.has_value();
   plan.stepwise = plan.wheel || model.implicit.has_value() || has_massless_contact(model);
   plan.keeps_force = plan.wheel || model.stiffness_damping > 0.0;
+  plan.keeps_impulse = has_friction_law(model);
   plan.n_sums = plan.wheel ? int{kernels::n_wheel_sums} : int{kernels::n_sums};
   plan.group_columns = group_columns;
   cut_ring(model.threads, most_steps_in_a_pass, tuning, plan);

@@ -28,7 +28,9 @@ RingChunk<C>::RingChunk(const Model& model, const RingLayout& layout, const Cycl
     turn_y_.push_back(axes.im);
   }
   if (layout.cut.halo != Halo::ring)
-    edges_ = RingEdges(layout.cut.halo, layout.keeps_force, layout.n_local, C);
+    edges_ = RingEdges(layout.cut.halo,
+                       2U + (layout.keeps_force ? 1U : 0U) + (layout.keeps_impulse ? 1U : 0U),
+                       layout.n_local, C);
   if (!model.contact) return;
   const auto most = static_cast<std::size_t>(range.columns) + 2 * halo_columns;
   low_.resize(most + kernels::lanes);
@@ -62,7 +64,53 @@ void RingChunk<C>::restore(const SavedState& saved) noexcept {
     if (layout_.keeps_force) put(a, field_force, c, force[node]);
     if (layout_.wheel) put(a, field_next(), c, before[node]);
   });
+  restore_impulses(saved.impulses);
   show_to_others();
+}
+
+template <int C>
+void RingChunk<C>::save_impulses(contact::KeptImpulses& impulses) const {
+  for (std::size_t k = 0; k < layout_.place.size(); ++k) {
+    const auto [row, sector] = layout_.place[k];
+    if (!is_own(sector - range_.first)) continue;
+    const Vec kept = kept_impulse(row, sector - range_.first);
+    if (kept.x != 0.0) impulses.emplace_back(2 * k, Vec2{kept.x, 0.0});
+    if (kept.y != 0.0) impulses.emplace_back(2 * k + 1, Vec2{kept.y, 0.0});
+  }
+}
+
+template <int C>
+void RingChunk<C>::restore_impulses(const contact::KeptImpulses& impulses) noexcept {
+  if (!layout_.keeps_impulse) return;
+  const int field = layout_.field_impulse();
+  for (int row = 0; row < layout_.n_local; ++row)
+    for (int c = 0; c < range_.columns; ++c) put(row, field, c, {});
+  for (const auto& [key, impulse] : impulses) {
+    const auto [row, sector] = layout_.place[key / 2];
+    const int column = sector - range_.first;
+    if (!is_own(column)) continue;
+    Vec kept = kept_impulse(row, column);
+    (key % 2 == 0 ? kept.x : kept.y) = impulse.x;
+    put(row, field, column, kept);
+  }
+}
+
+template <int C>
+void RingChunk<C>::forget_impulses(int row, const Extent& extent) noexcept {
+  if (!layout_.keeps_impulse) return;
+  for (int c = extent.first_column; c < extent.last_column; ++c)
+    put(row, layout_.field_impulse(), c, {});
+}
+
+template <int C>
+void RingChunk<C>::keep_impulse(const Touching& t,
+                                std::span<const ActiveContact> contacts) noexcept {
+  if (!layout_.keeps_impulse) return;
+  RONDO_ASSERT(!contacts.empty() && contacts.size() <= 2, contacts.size());
+  Vec kept{};
+  kept.x = contacts[0].impulse.x;
+  if (contacts.size() == 2) kept.y = contacts[1].impulse.x;
+  put(t.row, layout_.field_impulse(), t.column, kept);
 }
 
 template <int C>

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "rondo/contact/coupled/coupled_contacts.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/large_array.hpp"
 #include "rondo/integrators/fused/ring_edges.hpp"
@@ -26,6 +27,8 @@ class RingChunk {
 
   /// This chunk's own nodes, along their axes.
   void save(SavedState& saved) const noexcept;
+  /// Adds the impulses of its contacts, where they are kept, by candidate.
+  void save_impulses(contact::KeptImpulses& impulses) const;
   void restore(const SavedState& saved) noexcept;
   /// u_{n+1} or v_{n+1/2} of this chunk's own nodes, in the co-rotating frame; (n).
   /// @param candidates only those of the rows that have contact candidates
@@ -64,6 +67,7 @@ class RingChunk {
     Touches touches;
     Vec v;
     Vec force;
+    Vec kept;  ///< r_n of its contacts in the step before, where it is kept          [N·s/m], [N·s]
   };
 
   /// @param turn (N) axes of the sectors. @param strip_rows rows that are worked on together
@@ -130,6 +134,20 @@ class RingChunk {
   }
   [[nodiscard]] const double* turn_x() const noexcept { return turn_x_.data() + halo_columns; }
   [[nodiscard]] const double* turn_y() const noexcept { return turn_y_.data() + halo_columns; }
+  // What a law of friction asks for; nothing if friction is constant:
+  /// r_n of the contacts of a node in the step before.
+  [[nodiscard]] Vec kept_impulse(int row, int column) const noexcept {
+    return layout_.keeps_impulse ? at(row, layout_.field_impulse(), column) : Vec{};
+  }
+  /// A row has no contact in a step but those that keep_impulse() tells.
+  void forget_impulses(int row, const Extent& extent) noexcept;
+  void keep_impulse(const Touching& t, std::span<const ActiveContact> contacts) noexcept;
+  /// Pressures of the contacts of a node in the step before.
+  [[nodiscard]] std::array<double, 2> pressures_before(const Touching& t,
+                                                       double tributary) const noexcept {
+    return {pressure_of(t.kept.x, tributary, model_.dt),
+            pressure_of(t.kept.y, tributary, model_.dt)};
+  }
   /// Place in ContactModel::nodes of a node of a contact row.
   [[nodiscard]] std::size_t candidate_at(int row, int column) const noexcept;
   [[nodiscard]] bool is_own(int column) const noexcept {
@@ -162,9 +180,11 @@ class RingChunk {
   [[nodiscard]] std::size_t lanes_of_group() const noexcept {
     return static_cast<std::size_t>(layout_.n_sums) * std::size_t{kernels::lanes};
   }
-  [[nodiscard]] std::array<int, 3> edge_fields() const noexcept {
-    return {field_now(), field_v, field_force};
+  [[nodiscard]] EdgeFields edge_fields() const noexcept {
+    const int impulse = layout_.keeps_impulse ? layout_.field_impulse() : 0;
+    return {field_now(), field_v, layout_.keeps_force ? int{field_force} : impulse, impulse};
   }
+  void restore_impulses(const contact::KeptImpulses& impulses) noexcept;
   [[nodiscard]] Extent extent(std::size_t step, std::size_t n_steps) const noexcept;
   [[nodiscard]] double sum_of(const double* lanes) const noexcept;
 
@@ -198,6 +218,7 @@ void RingChunk<C>::load_fields(const State& state, Force&& initial_force) noexce
     put(a, field_now(), c, to_node * u[node] + model_.dt * v);
     put(a, field_v, c, v);
     if (layout_.keeps_force) put(a, field_force, c, initial_force(a, c));
+    if (layout_.keeps_impulse) put(a, layout_.field_impulse(), c, {});
   });
 }
 

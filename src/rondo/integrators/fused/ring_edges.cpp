@@ -10,7 +10,7 @@ namespace {
 
 /// visit(x), x sector 0 of every component of the fields of every row.
 template <class Visit>
-void for_components(const ChunkFields& chunk, const std::array<int, 3>& fields, std::size_t n,
+void for_components(const ChunkFields& chunk, const EdgeFields& fields, std::size_t n,
                     Visit&& visit) noexcept {
   for (int row = 0; row < chunk.n_rows; ++row)
     for (std::size_t i = 0; i < n; ++i)
@@ -28,16 +28,16 @@ void wrap(const ChunkFields& chunk, int row, int field) noexcept {
   }
 }
 
-RingEdges::RingEdges(Halo halo, bool keeps_force, int n_rows, int components)
-    : width_(halo == Halo::wide ? halo_columns : 1),
-      n_fields_(halo == Halo::wide ? (keeps_force ? 3 : 2) : 1) {
+RingEdges::RingEdges(Halo halo, std::size_t n_fields, int n_rows, int components)
+    : width_(halo == Halo::wide ? halo_columns : 1), n_fields_(halo == Halo::wide ? n_fields : 1) {
   RONDO_DEMAND(halo != Halo::ring && n_rows > 0 && components > 0, n_rows, components);
+  RONDO_DEMAND(n_fields >= 2 && n_fields <= EdgeFields{}.size(), n_fields);
   for (auto& parity : edges_)
     for (LargeArray& edge : parity)
       edge = LargeArray(static_cast<std::size_t>(n_rows * width_ * components) * n_fields_);
 }
 
-void RingEdges::give(const ChunkFields& chunk, const std::array<int, 3>& fields,
+void RingEdges::give(const ChunkFields& chunk, const EdgeFields& fields,
                      std::size_t pass) noexcept {
   RONDO_ASSERT(width_ > 0 && chunk.columns >= width_, width_, chunk.columns);
   double* left = edges_[pass % 2][0].data();
@@ -48,7 +48,7 @@ void RingEdges::give(const ChunkFields& chunk, const std::array<int, 3>& fields,
   });
 }
 
-void RingEdges::take(const ChunkFields& chunk, const std::array<int, 3>& fields, std::size_t pass,
+void RingEdges::take(const ChunkFields& chunk, const EdgeFields& fields, std::size_t pass,
                      const RingEdges& left, const RingEdges& right) const noexcept {
   RONDO_ASSERT(left.width_ == width_ && right.width_ == width_, width_, left.width_, right.width_);
   const double* from_left = left.edges_[pass % 2][1].data();

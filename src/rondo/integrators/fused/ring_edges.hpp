@@ -24,17 +24,20 @@ struct ChunkFields {
 /// The field's first and last sector on the other side of it: a chunk that is its own neighbour.
 void wrap(const ChunkFields& chunk, int row, int field) noexcept;
 
+/// Places of the fields of a halo; the last ones may be unused.
+using EdgeFields = std::array<int, 4>;
+
 class RingEdges {
  public:
   RingEdges() = default;
-  /// A wide halo, which is advanced, takes u, v and with `keeps_force` the force; a narrow one,
-  /// which is only read, takes u
-  RingEdges(Halo halo, bool keeps_force, int n_rows, int components);
+  /// A wide halo, which is advanced, takes the first `n_fields` of the fields; a narrow one, which
+  /// is only read, takes u
+  RingEdges(Halo halo, std::size_t n_fields, int n_rows, int components);
 
-  /// @param fields of u, v and the force, at the end of the pass
+  /// @param fields of u, v and what else is kept, at the end of the pass
   /// @param pass number of those made so far: its parity tells which copy is read and which written
-  void give(const ChunkFields& chunk, const std::array<int, 3>& fields, std::size_t pass) noexcept;
-  void take(const ChunkFields& chunk, const std::array<int, 3>& fields, std::size_t pass,
+  void give(const ChunkFields& chunk, const EdgeFields& fields, std::size_t pass) noexcept;
+  void take(const ChunkFields& chunk, const EdgeFields& fields, std::size_t pass,
             const RingEdges& left, const RingEdges& right) const noexcept;
 
  private:

@@ -55,6 +55,9 @@ class RingIntegrator : public BatchIntegrator {
   }
   void save_fields(SavedState& saved) const noexcept override {
     for (const Chunk& chunk : chunks_) chunk.save(saved);
+    if (!plan_.keeps_impulse) return;
+    for (const Chunk& chunk : chunks_) chunk.save_impulses(saved.impulses);
+    std::ranges::sort(saved.impulses, {}, [](const auto& kept) { return kept.first; });
   }
   void restore_fields(const SavedState& saved) noexcept override {
     for (Chunk& chunk : chunks_) chunk.restore(saved);

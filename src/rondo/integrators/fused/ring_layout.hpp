@@ -49,6 +49,7 @@ struct RingLayout {
   int nodes_per_sector = 0;    ///< of the mesh, held ones too
   std::vector<int> nodes;      ///< (n_local) place of a row's node in its sector
   bool keeps_force = false;    ///< K u_n is a field: β > 0, or a loaded rim
+  bool keeps_impulse = false;  ///< r_n of the step before is a field, for a law of friction
   bool stepwise = false;       ///< one step a pass: on a loaded rim, or with a tail
   bool wheel = false;          ///< on a loaded rim: v is V in the axes of R, one step a pass
   int n_sums = 0;              ///< of a group of columns in a step
@@ -67,7 +68,12 @@ struct RingLayout {
                                     nodes[static_cast<std::size_t>(row)]);
   }
   /// Doubles of a node.
-  [[nodiscard]] int n_fields() const noexcept { return (keeps_force ? 4 : 3) * components; }
+  [[nodiscard]] int n_fields() const noexcept {
+    return (3 + (keeps_force ? 1 : 0) + (keeps_impulse ? 1 : 0)) * components;
+  }
+  /// Place of the impulses behind the other fields: the first two components are those of the
+  /// first and the second facet that a candidate touches. @pre keeps_impulse
+  [[nodiscard]] int field_impulse() const noexcept { return n_fields() - components; }
   [[nodiscard]] std::ptrdiff_t row_size() const noexcept { return n_fields() * stride; }
   [[nodiscard]] std::size_t chunk_size() const noexcept {
     return static_cast<std::size_t>(lead + n_local * row_size() + halo_columns);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/integrators/fused/sparse_integrator.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
@@ -91,7 +92,8 @@ SparseIntegrator::SparseIntegrator(const Model& model, const State& start,
       plan_(std::move(plan)),
       u_{LargeArray(plan_.n_packs * 2 * lanes), LargeArray(plan_.n_packs * 2 * lanes)},
       motion_(plan_.n_packs * plan_.motion_size()),
-      contacts_(static_cast<std::size_t>(model.threads)) {
+      contacts_(static_cast<std::size_t>(model.threads)),
+      kept_(model.contact && has_friction_law(model) ? model.contact->nodes.size() : 0) {
   for (Contacts& contacts : contacts_) {
     contacts.touching.reserve(plan_.candidates.size());
     contacts.active.reserve(2 * plan_.candidates.size());
@@ -189,6 +191,9 @@ void SparseIntegrator::save_fields(SavedState& saved) const noexcept {
   if (plan_.keeps_force)
     for (std::size_t i = 0; i < plan_.node.size(); ++i)
       saved.force.plane()[at(plan_.node[i])] = vector_at(motion_.data() + motion_at(i) + force_at);
+  for (std::size_t k = 0; k < kept_.size(); ++k)
+    for (std::size_t i = 0; i < 2; ++i)
+      if (kept_[k][i] != 0.0) saved.impulses.emplace_back(2 * k + i, Vec2{kept_[k][i], 0.0});
   if (!plan_.wheel) return;
   const double* before = u_[parity(step_ + 1)].data();
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
@@ -198,6 +203,9 @@ void SparseIntegrator::save_fields(SavedState& saved) const noexcept {
 }
 
 void SparseIntegrator::restore_fields(const SavedState& saved) noexcept {
+  std::ranges::fill(kept_, std::array<double, 2>{});
+  for (const auto& [key, impulse] : saved.impulses)
+    if (!kept_.empty()) kept_[key / 2][key % 2] = impulse.x;
   double* now = u_[parity(step_)].data();
   for (std::size_t i = 0; i < plan_.node.size(); ++i) {
     const auto node = static_cast<std::size_t>(plan_.node[i]);
@@ -253,6 +261,13 @@ void SparseIntegrator::find_touching(const Work& work, std::size_t block) const 
   }
 }
 
+/// The block has no contact in a step but those that solve_node() keeps.
+void SparseIntegrator::forget_impulses(std::size_t block) noexcept {
+  const std::size_t last = plan_.first_candidate[block + 1];
+  for (std::size_t i = plan_.first_candidate[block]; i < last; ++i)
+    kept_[at(plan_.candidates[i].candidate)] = {};
+}
+
 void SparseIntegrator::look_at(const Work& work, const SparseCandidate& c) const noexcept {
   const ContactStep& contact = *work.step->contact;
   const Vec2 u = pair_at(work.now, c.row);
@@ -261,8 +276,9 @@ void SparseIntegrator::look_at(const Work& work, const SparseCandidate& c) const
   if (touches.count == 0) return;
   if (work.step->held && work.step->held[c.candidate]) return;
   const double* motion = motion_.data() + motion_at(static_cast<std::size_t>(c.row));
-  work.contacts->touching.push_back({c, touches, u, vector_at(motion),
-                                     plan_.keeps_force ? vector_at(motion + force_at) : Vec2{}});
+  work.contacts->touching.push_back(
+      {c, touches, u, vector_at(motion), plan_.keeps_force ? vector_at(motion + force_at) : Vec2{},
+       kept_.empty() ? std::array<double, 2>{} : kept_[at(c.candidate)]});
 }
 
 void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialStep& part) noexcept {
@@ -275,11 +291,15 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
                          model_.contact->tributary[k],
                          c.reference + t.u,
                          plan_.wheel ? t.v + back * t.v : t.v,
-                         vector_at(motion)};
+                         vector_at(motion),
+                         {pressure_of(t.kept[0], model_.contact->tributary[k], model_.dt),
+                          pressure_of(t.kept[1], model_.contact->tributary[k], model_.dt)}};
   std::array<ActiveContact, 2> contacts;
   const std::span active(contacts.data(), static_cast<std::size_t>(t.touches.count));
   const Vec2 after = solve_contacts(*work.step->contact, node, t.touches, active, part.contact);
   put(motion, after);
+  for (std::size_t i = 0; !kept_.empty() && i < active.size(); ++i)
+    kept_[k][i] = active[i].impulse.x;
   NodeForces forces{.load = load_on(work, c.row)};
   if (rubber_) forces.internal = force_on(work.now, c.row);
   if (plan_.keeps_force) forces.change = vector_at(motion + force_at) - t.force;
@@ -390,6 +410,7 @@ void SparseIntegrator::make_block(const Work& work, std::size_t block) noexcept 
   part.contact = {};
   const bool contacts = work.step->contact && !has_massless_contact(model_);
   if (contacts) find_touching(work, block);
+  if (!kept_.empty()) forget_impulses(block);
   update_rows(work, block, part);
   if (contacts)
     for (const Touching& t : work.contacts->touching) solve_node(work, t, part);

@@ -30,6 +30,7 @@ class SparseIntegrator : public BatchIntegrator {
     SparseCandidate candidate;
     contact::Touches touches;
     Vec2 u, v, force;
+    std::array<double, 2> kept;  ///< r_n of its contacts in the step before, where it is kept
   };
   /// Contacts of a thread's blocks.
   struct Contacts {
@@ -76,6 +77,7 @@ class SparseIntegrator : public BatchIntegrator {
                                               std::size_t block) noexcept;
   void update_rows(const Work& work, std::size_t block, PartialStep& part) noexcept;
   void find_touching(const Work& work, std::size_t block) const noexcept;
+  void forget_impulses(std::size_t block) noexcept;
   void look_at(const Work& work, const SparseCandidate& c) const noexcept;
   void solve_node(const Work& work, const Touching& t, PartialStep& part) noexcept;
   [[nodiscard]] Vec2 load_on(const Work& work, int row) const noexcept;
@@ -88,6 +90,8 @@ class SparseIntegrator : public BatchIntegrator {
   std::optional<RubberForces> rubber_;       ///< absent: K is all
   std::optional<FollowingLoads> following_;  ///< absent: no loads, or they stay as they are
   std::vector<Contacts> contacts_;           ///< contacts of each thread
+  /// (nb) r_n of the contacts of each candidate in the last step; empty if friction is constant
+  std::vector<std::array<double, 2>> kept_;  ///<                                       [N·s/m]
   std::vector<std::unique_ptr<Rows>> rows_;  ///< rows as the tails see them
 };
 

@@ -49,6 +49,13 @@ inline double sum_of_lanes(const double* x) noexcept {
   return ((x[0] + x[4]) + (x[2] + x[6])) + ((x[1] + x[5]) + (x[3] + x[7]));
 }
 
+/// Pressure of a contact, for a law of friction that asks for it [Pa]. @param impulse r_n [N·s/m],
+/// [N·s] @param tributary length or area of its node [m], [m²]; 0: none is known, and neither is
+/// the pressure
+inline double pressure_of(double impulse, double tributary, double dt) noexcept {
+  return tributary > 0.0 ? impulse / (dt * tributary) : 0.0;
+}
+
 /// The results of a part of the body in one step: raw sums, and its contacts.
 struct PartialStep {
   StepSums sums{};

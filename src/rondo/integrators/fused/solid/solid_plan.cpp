@@ -198,6 +198,7 @@ SolidPlan make_solid_plan(const Model& model, const SolidTuning& tuning) {
   const bool swept = model.solid->swept.has_value();
   plan.wheel = plan.stepwise = model.rim.has_value();
   plan.keeps_force = plan.wheel || swept || model.stiffness_damping > 0.0;
+  plan.keeps_impulse = has_friction_law(model);
   plan.n_sums = plan.wheel ? int{kernels::n_solid_wheel_sums}
                 : swept    ? int{kernels::n_solid_rubber_sums}
                            : int{kernels::n_sums};

@@ -69,8 +69,10 @@ void SolidChunk::find_touching(const Work& work, int row) noexcept {
     if (touches.count == 0) continue;
     if (work.step->held && work.step->held[candidate_at(row, c)]) continue;
     touching_.push_back({row, c, touches, at(row, field_v, c),
-                         plan_.keeps_force ? at(row, field_force, c) : Vec3{}});
+                         plan_.keeps_force ? at(row, field_force, c) : Vec3{},
+                         kept_impulse(row, c)});
   }
+  forget_impulses(row, work.extent);
 }
 
 void SolidChunk::solve_node(const Work& work, const Touching& t) noexcept {
@@ -86,7 +88,7 @@ void SolidChunk::solve_node(const Work& work, const Touching& t) noexcept {
                               frame * arm(t.row, u),
                               frame * before,
                               frame * free,
-                              {}};
+                              pressures_before(t, model_.contact->tributary[k])};
   std::array<ActiveContact, 2> contacts;
   const std::span active(contacts.data(), static_cast<std::size_t>(t.touches.count));
   ContactReport report;
@@ -94,6 +96,7 @@ void SolidChunk::solve_node(const Work& work, const Touching& t) noexcept {
       conj(frame) * solve_contacts(*work.step->solid_contact, node, t.touches, active, report);
   put(t.row, field_v, t.column, after);
   if (!plan_.wheel) put(t.row, work.next, t.column, u + model_.dt * after);
+  keep_impulse(t, active);
   // The neighbour reports the contacts of its own nodes.
   if (!is_own(t.column)) return;
   PartialStep& part = part_of(work.place, t.column);
