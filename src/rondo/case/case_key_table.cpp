@@ -559,8 +559,8 @@ constexpr CaseKey keys[] = {
      "the height 0 of the file, with a step at the end"},
     {"ground.fillet", "m", FIELD(ground->shape.fillet), not_negative, optional.of(in_time_untold),
      "Radius that rounds all convex corners of the ground; 0: they are sharp"},
-    {"ground.friction", "-", FIELD(ground->friction.coefficient), between(0, 100), optional.body(never),
-     "Coulomb's coefficient of friction μ on the ground; 0: none"},
+    {"ground.friction", "-", FIELD(ground->friction.coefficient), between(0, 100),
+     optional.body(never), "Coulomb's coefficient of friction μ on the ground; 0: none"},
     {"ground.restitution", "-", FIELD(ground->restitution), between(0, 1),
      optional.of(in_time).body(never),
      "Newton's coefficient of restitution e of each node's impact on the ground; 0: a node that "
@@ -810,6 +810,10 @@ constexpr CaseKey keys[] = {
      optional.of(in_time).body(never), "Time of the first snapshot"},
     {"output.stress", "-", FIELD(output.stress), any, optional.of(not_in_inflation).body(never),
      "Whether the snapshots contain the stress"},
+    {"output.friction_work", "-", FIELD(output.friction_work), any,
+     optional.of(in_time).body(never),
+     "Whether the snapshots contain the energy that friction has taken so far, by contact node and "
+     "by place in the footprint ([wear.md](wear.md))"},
     {"output.checkpoint_interval", "s", FIELD(output.checkpoint_interval), positive,
      optional.of(not_in_inflation).body(never).free_on_resume(),
      "Wall time between checkpoints (docs/results.md, [Resuming a "

@@ -87,6 +87,8 @@ constexpr std::array rows{
         [](const Case& c) { return c.ground && c.ground->impact == contact::Impact::energy_safe; }},
     CaseFeature{has::friction_law, "ground.friction", "a constant ground.friction",
                 [](const Case&) { return false; }},
+    CaseFeature{has::friction_work, "output.friction_work", "output.friction_work = false",
+                [](const Case& c) { return c.output.friction_work; }},
     CaseFeature{has::stiffness_damping, "damping.stiffness", "damping.stiffness = 0",
                 [](const Case& c) { return c.damping.stiffness > 0.0; }},
     CaseFeature{has::stress_stiffening, "material.stress_stiffening",
