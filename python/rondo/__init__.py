@@ -21,6 +21,7 @@ from .data.errors import (
     UnfinishedRunError,
     UnknownNameError,
 )
+from .data.heat import Heat
 from .data.history import History
 from .data.mesh import Mesh
 from .data.modes import Modes, open_modes
@@ -40,7 +41,7 @@ __version__ = "0.2.0"
 attach()
 del attach, demand, while_loading
 
-__all__ = ["Error", "FileError", "History", "InputError", "Mesh", "Modes", "NewerSchemaError",
+__all__ = ["Error", "FileError", "Heat", "History", "InputError", "Mesh", "Modes", "NewerSchemaError",
            "NotARunError", "NumericalError", "Paper", "Pod", "ReducedWheel", "Run", "Simulation",
            "Solution", "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "about", "crush",
            "files", "fmu", "modes", "open", "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation",

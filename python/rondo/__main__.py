@@ -14,6 +14,7 @@ from rondo import interrupts, open_modes, open_paper, open_sweep, open_validatio
 from rondo import open as open_run
 from rondo.command_help import CommandParser, output_path
 from rondo.data.errors import Error, FileError, UnfinishedRunError
+from rondo.data.heat import Heat
 from rondo.data.names import FRAME, OLDER_FRAMES
 from rondo.data.run import Run
 from rondo.needs import missing
@@ -86,15 +87,26 @@ def _parser() -> argparse.ArgumentParser:
                        help="Directory for wheel.png and .svg; default DIRECTORY/figures")
 
     footprint = add("footprint", "Draws pressure, shear, slip and sticking in the contact of steady rolling, or of "
-                    "a wheel in three dimensions")
+                    "a wheel in three dimensions; friction, wear and flash temperature there",
+                    epilog="Of steady rolling, and of runs with output.friction_work, it also tells and draws the "
+                           "energy that friction takes around the tread, in a plane motion alone. docs/wear.md.")
     footprint.add_argument("directory", type=pathlib.Path,
                            help='Directory of `rondo run` with analysis.kind = "steady-rolling", or of a '
                                 'wheel in three dimensions')
     footprint.add_argument("--time", type=float, metavar="SECONDS",
                            help="In three dimensions: takes the snapshot nearest to this time; default the "
                                 "last with contact")
+    footprint.add_argument("--conductivity", type=float, metavar="K",
+                           help="Heat conductivity of the tread in W/(m K), for its flash temperature; with --density "
+                                "and --heat-capacity")
+    footprint.add_argument("--density", type=float, metavar="RHO", help="Of the tread in kg/m3, likewise")
+    footprint.add_argument("--heat-capacity", type=float, metavar="C", help="Of the tread in J/(kg K), likewise")
+    footprint.add_argument("--share", type=float, metavar="BETA",
+                           help="Of the friction power, that goes into the tread; default 0.5: ground and tread "
+                                "of one material")
     footprint.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
-                           help="Directory for footprint.png and .svg; default DIRECTORY/figures")
+                           help="Directory for footprint.png and .svg, wear.csv, .png and .svg, and those of "
+                                "flash-temperature; default DIRECTORY/figures")
 
     traction = add(
         "traction", "Draws the longitudinal force of a sweep over slip: curves and carpets",
@@ -178,7 +190,7 @@ def _parser() -> argparse.ArgumentParser:
                      help="Length of the segments; default: eight segments")
     psd.add_argument("-o", "--output", type=output_path, metavar="FOLDER",
                      help="Directory for psd-NAME.png, .svg and .csv; default DIRECTORY/figures")
-    for command in film, means, validate, psd:
+    for command in film, footprint, means, validate, psd:
         command.add_argument("--from", dest="from_time", type=float, metavar="SECONDS",
                              help="First time used")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
@@ -292,10 +304,42 @@ def _wheel(options: argparse.Namespace) -> None:
 
 def _footprint(options: argparse.Namespace) -> None:
     from rondo import style
+    from rondo.figures.friction_figures import draw_heat, draw_wear, has_wear
 
-    figure = open_run(options.directory, options.unfinished).plot_footprint(options.time)
-    for path in style.save(figure, _folder(options) / "footprint"):
+    run, folder = open_run(options.directory, options.unfinished), _folder(options)
+    heat = _heat(options)
+    wears = has_wear(run)
+    if not wears and not (options.from_time is None and options.to_time is None):
+        raise Error(f"{run.directory}: --from and --to: are the times between which wear is told, and the run has "
+                    "no friction work: run the case again with output.friction_work = true")
+    written = []
+    if run.is_solid or run.is_steady or not (wears or heat):  # else no footprint is drawn of it
+        written += style.save(run.plot_footprint(options.time), folder / "footprint")
+    told = [draw_wear(run, folder, options.from_time, options.to_time)] if wears else []
+    if heat:
+        told.append(draw_heat(run, folder, heat, options.time))
+    for words, files in told:
+        print(words)
+        written += files
+    for path in written:
         print(path)
+
+
+def _heat(options: argparse.Namespace) -> Heat | None:
+    """Of the options that say what the tread is made of; all three of them, or none."""
+    given = {"--conductivity": options.conductivity, "--density": options.density,
+             "--heat-capacity": options.heat_capacity}
+    missing = [name for name, value in given.items() if value is None]
+    if len(missing) == len(given):
+        if options.share is not None:
+            raise Error("--share: is of a flash temperature, which also needs --conductivity, --density and "
+                        "--heat-capacity")
+        return None
+    if missing:
+        raise Error(f"{', '.join(missing)}: missing: a flash temperature needs --conductivity, --density and "
+                    "--heat-capacity of the tread")
+    return Heat(options.conductivity, options.density, options.heat_capacity,
+                0.5 if options.share is None else options.share)
 
 
 def _traction(options: argparse.Namespace) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from .data.errors import Error
+from .data.heat import Heat
 from .data.modes import Modes
 from .data.paper import Paper
 from .data.pod import Pod
@@ -90,6 +91,19 @@ def _footprint(run: Run, time: float | None = None) -> Figure:
                     "places of steady rolling together; leave time out")
     from .plots.footprint import plot_footprint
     return plot_footprint(run)
+
+
+def _wear(run: Run, from_time: float | None = None, to_time: float | None = None) -> Figure:
+    """What friction takes in the footprint and around the tread; see rondo.plots.friction.plot_wear."""
+    from .plots.friction import plot_wear
+    return plot_wear(run, from_time, to_time)
+
+
+def _flash(run: Run, heat: Heat, time: float | None = None) -> Figure:
+    """Friction power and flash temperature in the footprint; see
+    rondo.plots.friction.plot_flash_temperature."""
+    from .plots.friction import plot_flash_temperature
+    return plot_flash_temperature(run, heat, time)
 
 
 def _convergence(run: Run, ax: Axes | None = None) -> Axes:
@@ -242,6 +256,7 @@ def attach() -> None:
     Run.plot_spectrum, Run.plot_modes, Run.animate = _spectrum, _modes_of_run, _animate
     Run.plot_contact, Run.plot_contact_map, Run.plot_psd = _contact, _contact_map, _psd
     Run.plot_wheel, Run.plot_footprint, Run.plot_convergence = _wheel, _footprint, _convergence
+    Run.plot_wear, Run.plot_flash_temperature = _wear, _flash
     Run.plot_section, Run.plot_cords = _section, _cords
     Pod.plot_spectrum, Pod.plot_modes = _decay, _modes
     Modes.plot_campbell, Modes.plot_shapes = _campbell, _shapes

@@ -142,6 +142,7 @@ def test_figures(steady, tmp_path, monkeypatch):
 def test_command(steady, smooth, tmp_path):
     done = rondo_module("footprint", steady["smooth"].directory, "-o", tmp_path)
     assert (done.returncode, done.stderr) == (0, "")
-    assert {path.name for path in tmp_path.iterdir()} == {"footprint.png", "footprint.svg"}
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "footprint.png", "footprint.svg", "wear.csv", "wear.png", "wear.svg"}
     done = rondo_module("footprint", smooth, "-o", tmp_path)
     assert done.returncode == 2 and "steady-rolling" in done.stderr

@@ -24,7 +24,7 @@ constexpr PythonCommand commands[] = {
     {"wheel", "Draws height, speeds, slip, forces, torques and energies of a rim that forces move"},
     {"footprint",
      "Draws pressure, shear, slip and sticking in the contact of steady rolling, or of a wheel "
-     "in three dimensions"},
+     "in three dimensions; friction, wear and flash temperature there"},
     {"traction", "Draws the longitudinal force of a sweep over slip: curves and carpets"},
     {"tyre", "Draws lateral force and aligning moment of a sweep over the slip angle"},
     {"campbell", "Draws the frequencies of a body over its spin"},

@@ -17,7 +17,7 @@ from .tables import frame_of
 if TYPE_CHECKING:
     import pandas
 
-UNITS = {"node": "1", "sticks": "1", "slip_speed": "m/s"}  # of columns that do not end in theirs
+UNITS = {"node": "1", "sticks": "1", "slip_speed": "m/s", "friction_power": "W/m2"}  # of columns that do not end in theirs
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,8 @@ from .convergence import Convergence
 from .cords import Cords
 from .errors import STATUS, Error, UnfinishedRunError, unknown
 from .files import check_format, opened, read_case, read_json, require
+from .friction import FrictionWork, Wear, read_friction_work, wear_of
+from .heat import FlashTemperature, Heat, flash_of
 from .history import History
 from .html import run_html
 from .labelled import STRESS, run_dataset
@@ -63,6 +65,8 @@ class Run:
     plot_modes: Callable[..., Figure]
     plot_wheel: Callable[..., Figure]
     plot_footprint: Callable[..., Figure]
+    plot_wear: Callable[..., Figure]
+    plot_flash_temperature: Callable[..., Figure]
     plot_convergence: Callable[..., Axes]
     plot_section: Callable[..., Axes]
     plot_cords: Callable[..., Axes]
@@ -91,6 +95,7 @@ class Run:
             self._has_contact = "contact" in file
             self._datasets = [f"{group}/{name}" for group in ("snapshots", "fields")
                               if group in file for name in file[group]]
+            self.contact_datasets: tuple[str, ...] = tuple(file.get("contact", ()))  # of results.h5
             self._of_modes = "reduced" in file  # a reduced run of an earlier version
         self._fields: dict[str, LazyArray] = {}  # those asked for so far
         self.times_velocity: np.ndarray = frame["time_velocity"]
@@ -369,6 +374,22 @@ class Run:
                            for name in ("force", "traction"))
         return Contact(force, traction, self.mesh.boundary, self.mesh.tributary,
                        self.directory / "contact.csv")
+
+    @cached_property
+    def friction_work(self) -> FrictionWork:
+        """What friction has taken at each contact node and place of the footprint, with
+        output.friction_work; an error of other runs."""
+        return read_friction_work(self)
+
+    def wear(self, from_time: float | None = None, to_time: float | None = None) -> Wear:
+        """What friction takes around the tread: of steady rolling in a turn, of steps in time between two
+        times, which needs output.friction_work."""
+        return wear_of(self, from_time, to_time)
+
+    def flash_temperature(self, heat: Heat, time: float | None = None) -> FlashTemperature:
+        """Rise of the tread's temperature through the footprint of steady rolling, or at a snapshot; see
+        rondo.data.heat.flash_of."""
+        return flash_of(self, heat, time)
 
     @cached_property
     def crush(self) -> Crush | None:

@@ -19,6 +19,8 @@
 #include "rondo/analysis/rubber_watch.hpp"
 #include "rondo/case/case_source.hpp"
 #include "rondo/integrators/start.hpp"
+#include "rondo/model/friction_work.hpp"
+#include "rondo/output/friction_record.hpp"
 #include "rondo/output/resume.hpp"
 
 namespace rondo::study {
@@ -117,6 +119,8 @@ RecordPlan DynamicAnalysis::record_plan() const {
                   .components = setup_.model.solid ? std::size_t{3} : std::size_t{2},
                   .camber = setup_.model.motion.camber};
   if (has_massless_contact(setup_.model)) plan.results.mass_dynamic = setup_.model.mass;
+  plan_friction_work(setup_.model, plan.results);
+  if (knows_slip()) plan.contact_columns = {&friction_column(), 1};
   plan.columns = History(case_, setup_).columns();
   const double interval = std::max(case_.output.history_interval, setup_.model.dt);
   plan.n_rows = static_cast<std::size_t>(case_.time.end / interval) + 2;
@@ -125,6 +129,11 @@ RecordPlan DynamicAnalysis::record_plan() const {
     plan.ground = &setup_.model.contact->ground;
   if (!setup_.model.free_bodies.empty()) plan.model = &setup_.model;
   return plan;
+}
+
+/// The scheme "hati" adds up impulses of steps with different slips; reduced wheels have gaps.
+bool DynamicAnalysis::knows_slip() const noexcept {
+  return !setup_.model.subdomains && setup_.reduced.empty();
 }
 
 std::vector<std::string> DynamicAnalysis::warnings() const {
@@ -182,6 +191,7 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
   strain_.emplace(setup_.mesh, setup_.materials, &setup_.model);
   const auto& solid = setup_.model.solid;
   if (solid && solid->swept && solid->swept->rubber) strain_->take_large_strains();
+  if (setup_.model.friction_work) setup_.model.friction_work->clear();
   if (!from_) record_state(recorder);
   Field v = since_pause_ ? state_.v : Field();
   start_integrator();
@@ -198,6 +208,7 @@ void DynamicAnalysis::start_integrator() {
   if (!from_) return;
   dynamics::SavedState& saved = from_->state;
   integrator_->resumable()->restore(saved);
+  if (setup_.model.friction_work) setup_.model.friction_work->restore(saved.friction_work);
   saved = {};  // as much memory as the steps have
   saved.step = steps_;
   contact_ = from_->contact;
@@ -284,6 +295,8 @@ Checkpoint DynamicAnalysis::save() const {
   Checkpoint checkpoint;
   checkpoint.identity = identity_of(case_, setup_);
   checkpoint.state = integrator_->resumable()->save();
+  if (setup_.model.friction_work)
+    checkpoint.state.friction_work = setup_.model.friction_work->save();
   checkpoint.n_steps = setup_.n_steps;
   checkpoint.history = history_->place();
   checkpoint.schedule = schedule_;

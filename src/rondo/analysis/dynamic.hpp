@@ -69,6 +69,8 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   void plan_snapshots();
 
  private:
+  /// Contacts have the velocities that go with their impulses.
+  [[nodiscard]] bool knows_slip() const noexcept;
   [[nodiscard]] long long next_snapshot() const noexcept;
   void start_integrator();
   void add_depth_between_nodes(dynamics::StepReport& step);

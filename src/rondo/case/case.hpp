@@ -225,6 +225,7 @@ struct Output {
   int snapshots = 400;               ///< >= 0
   double snapshots_from = 0.0;       ///< [s], in [0, end]
   bool stress = true;
+  bool friction_work = false;
   std::vector<Probe> probes;
   double checkpoint_interval = 60.0;  ///< [s of wall time]
 };

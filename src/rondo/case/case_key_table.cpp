@@ -883,6 +883,10 @@ constexpr CaseKey keys[] = {
      optional.of(in_time).body(never), "Time of the first snapshot"},
     {"output.stress", "-", FIELD(output.stress), any, optional.of(not_in_inflation).body(never),
      "Whether the snapshots contain the stress"},
+    {"output.friction_work", "-", FIELD(output.friction_work), any,
+     optional.of(in_time).body(never),
+     "Whether the snapshots contain the energy that friction has taken so far, by contact node and "
+     "by place in the footprint ([wear.md](wear.md))"},
     {"output.checkpoint_interval", "s", FIELD(output.checkpoint_interval), positive,
      optional.of(not_in_inflation).body(never).free_on_resume(),
      "Wall time between checkpoints (docs/results.md, [Resuming a "

@@ -233,11 +233,24 @@ bool is_word(std::string_view name) {
   });
 }
 
+/// What is asked for must come into a file, and must not be zero for want of contact.
+void check_friction_work(CaseValues& in, const Case& c) {
+  constexpr std::string_view key = "output.friction_work";
+  if (!c.output.friction_work || !in.good({key})) return;
+  if (!c.ground && c.body_contact.between == BodyContact::none)
+    in.fault(key, "nothing can be touched, so that there is no friction",
+             "output.friction_work = false, or a [ground]");
+  if (in.good({"output.snapshots"}) && c.output.snapshots == 0)
+    in.fault(key, "the run has no snapshots, in which it would be written",
+             "output.snapshots = 2, for the start and the end, or more");
+}
+
 void check_output(CaseValues& in, Case& c) {
   const Output& output = c.output;
   if (in.good({"output.snapshots_from", "time.end"}) && output.snapshots_from > c.time.end)
     in.fault("output.snapshots_from", "must not be after the end of the run",
              fmt::format("0 to time.end = {:.6g}", c.time.end));
+  check_friction_work(in, c);
   check_names(in, "output.probe[].name", c);
   for (std::size_t k = 0; k < output.probes.size(); ++k) {
     const std::string name = item_of("output.probe", k) + ".name";

@@ -119,6 +119,8 @@ Results::Results(const std::filesystem::path& directory, const ResultsLayout& la
   if (!layout.mass_dynamic.empty())
     file_.write("/mesh/mass_dynamic", {c_.nodes}, layout.mass_dynamic,
                 {"kg/m", "mass of each node with which it moves: 0 at contact nodes"});
+  for (const Constants& c : layout.constants)
+    file_.write(c.path, {c.values.size()}, std::span<const double>(c.values), {c.unit, c.meaning});
   if (!free_body_.empty())
     file_.write("/mesh/free_body", {c_.nodes}, free_body_,
                 {"1",
@@ -327,9 +329,11 @@ std::size_t Results::bytes(const ResultsLayout& layout) noexcept {
   const std::size_t candidate = c.contact ? 2 * c.components * real : 0;
   std::size_t frame = (c.solid ? 7 : 6) * real;
   for (const Series& s : layout.series) frame += s.components * real;
+  std::size_t constants = 0;
+  for (const Constants& c : layout.constants) constants += c.values.size() * real;
   const std::size_t shown = c.times > 0 ? vtk_cells_bytes(*layout.mesh) : 0;
   return index_bytes(c) + mesh_bytes(*layout.mesh) + shown + layout.free_body.size() * sizeof(int) +
-         c.times * (frame + c.nodes * fields + c.candidates * candidate);
+         constants + c.times * (frame + c.nodes * fields + c.candidates * candidate);
 }
 
 }  // namespace rondo::io

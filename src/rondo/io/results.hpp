@@ -33,6 +33,13 @@ namespace rondo::io {
 struct Series {
   std::string path, unit, meaning;
   std::size_t components = 1;
+  std::size_t rows = 0;  ///< of each value, which is then (rows, components / rows); 0: it has none
+};
+
+/// A dataset that is the same for all snapshots, in addition to those of every analysis.
+struct Constants {
+  std::string path, unit, meaning;
+  std::vector<double> values;
 };
 
 /// Names that an analysis gives its times and rates; the defaults are those of motion in time.
@@ -61,6 +68,7 @@ struct ResultsLayout {
   double camber = 0.0;         ///< for a solid mesh, inclination of the ground    [rad]
   ResultsWords words = {};
   std::vector<Series> series = {};
+  std::vector<Constants> constants = {};
   std::span<const double> mass_dynamic{};  ///< (n) mass used in the motion; empty: `mass` [kg/m]
 };
 

@@ -118,7 +118,10 @@ void Results::create_fields() {
 void Results::create_series() {
   for (std::size_t k = 0; k < series_.size(); ++k) {
     h5::Shape shape = {c_.times};
-    if (series_[k].components > 1) shape.push_back(series_[k].components);
+    if (const std::size_t rows = series_[k].rows; rows > 0)
+      shape.insert(shape.end(), {rows, series_[k].components / rows});
+    else if (series_[k].components > 1)
+      shape.push_back(series_[k].components);
     add_rows(series_rows_[k], series_[k].path, Type::float64, shape,
              {series_[k].unit, series_[k].meaning});
   }

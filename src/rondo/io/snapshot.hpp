@@ -23,6 +23,7 @@ struct ContactForce {
   bool on_ground = true;  ///< false: only a body touches it
   double slip = 0.0;      ///< tangential velocity over the ground, if the analysis gives it [m/s]
   bool sticks = false;    ///< if the analysis gives it
+  double power = 0.0;     ///< that friction takes, if the analysis gives it [W/m], [W]
 };
 
 struct Snapshot {

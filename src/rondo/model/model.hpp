@@ -131,6 +131,7 @@ struct SolidBody {
   }
 };
 
+class FrictionWork;
 class InternalForce;
 struct Model;
 struct Pose;
@@ -168,6 +169,8 @@ struct Model {
   std::optional<SurfaceContact> surfaces;  ///< absent: bodies do not touch each other
   std::vector<PressureLoad> pressures;
   CoupledSettings coupled;
+  /// Receives what friction takes in every step (friction_work.hpp); null: nobody asks.
+  std::shared_ptr<FrictionWork> friction_work;
   Scheme scheme = Scheme::symplectic;
   std::optional<Subdomains> subdomains;  ///< only with the scheme "hati"
   double dt = 0.0;                       ///< Δt; with "hati" the coarse step  [s]

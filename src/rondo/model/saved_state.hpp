@@ -34,6 +34,9 @@ struct SavedState {
   /// For each node where the parts of the scheme "hati" meet: u and v of the coarse part [m],
   /// [m/s], and the multiplier [N/m]; (3 interface).
   std::vector<Vec2> interface;
+  /// Of model.friction_work (FrictionWork::save), which is no part of the integrator: whoever saves
+  /// this state sets it.
+  std::vector<double> friction_work;
   std::array<double, Ledger::n_numbers> ledger{};
 };
 

@@ -197,6 +197,8 @@ void put_state(File& file, const dynamics::SavedState& s) {
        "columns"});
   put(file, "/state/rim", s.rim, {"1", "what a loaded rim carries"});
   put(file, "/state/ring", s.ring, {"1", "contacts of a massless boundary"});
+  put(file, "/state/friction_work", s.friction_work,
+      {"1", "energy that friction took, of contact nodes and places: whole numbers of each sum"});
   put(file, "/state/interface", s.interface,
       {"1", "where two parts meet: u [m] and v [m/s] of the coarse one, multiplier [N/m]"});
   put(file, "/state/ledger", std::vector<double>(s.ledger.begin(), s.ledger.end()),
@@ -215,6 +217,7 @@ void get_state(const File& file, dynamics::SavedState& s) {
   s.window = get<double>(file, "/state/window");
   s.rim = get<double>(file, "/state/rim");
   s.ring = get<double>(file, "/state/ring");
+  s.friction_work = get<double>(file, "/state/friction_work");
   s.interface = get<Vec2>(file, "/state/interface");
   for (const auto& p : get<std::array<double, 5>>(file, "/state/poses", s.energy.size()))
     s.poses.push_back({{p[0], p[1]}, {p[2], p[3]}, p[4]});

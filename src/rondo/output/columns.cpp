@@ -255,6 +255,12 @@ constexpr std::array solid_contact{
               "`contact_area_m2` of history.csv",
               [](const P& r) { return r.extent; }}};
 
+constexpr Column<P> friction_power{
+    "friction_power", "W/m2",
+    "that friction takes at the node, over the deformed boundary that it stands for; of steps in "
+    "time that of the step of the snapshot",
+    [](const P& r) { return r.power; }};
+
 /// A group of columns, and the feature of a run that adds it.
 struct ColumnGroup {
   bool HistoryFeatures::*feature;
@@ -290,6 +296,10 @@ void append_history(const HistoryFeatures& features, const HistoryRecord& record
   append_values(std::span<const Column<H>>(history), record, values);
   for (const ColumnGroup& group : groups)
     if (features.*group.feature) append_values(group.columns, record, values);
+}
+
+const Column<ContactRecord>& friction_column() noexcept {
+  return friction_power;
 }
 
 std::span<const Column<ContactRecord>> contact_columns(bool is_solid) noexcept {

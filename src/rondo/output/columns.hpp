@@ -45,7 +45,11 @@ struct ContactRecord {
   double extent = 0.0;    ///< of the deformed boundary that belongs to the node [m], [m²]
   double slip = 0.0;      ///< as in ContactForce                                        [m/s]
   bool sticks = false;    ///< as in ContactForce
+  double power = 0.0;     ///< that friction takes, over the extent                    [W/m²]
 };
+
+/// Of analyses that know velocities: the power that friction takes.
+[[nodiscard]] const Column<ContactRecord>& friction_column() noexcept;
 
 /// Features of a run beyond a plane body whose rim follows its tables. Each adds a group of columns
 /// to history.csv.

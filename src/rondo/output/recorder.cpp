@@ -96,14 +96,18 @@ std::vector<FileRecorder::Slot> FileRecorder::make_slots(const RecordPlan& plan)
   const std::size_t nodes = layout.n_snapshots == 0 ? 0 : layout.mesh->n_nodes();
   const std::size_t contacts =
       layout.n_snapshots == 0 || !layout.contact ? 0 : 2 * layout.mesh->boundary.size();
+  std::size_t series = 0;
+  if (layout.n_snapshots > 0)
+    for (const io::Series& s : layout.series) series += s.components;
   const std::size_t bytes = (numbers_at_once_ + 2 * nodes * layout.components) * sizeof(double) +
-                            contacts * sizeof(ContactForce);
+                            contacts * sizeof(ContactForce) + series * sizeof(double);
   std::vector<Slot> slots(queue_length(layout.n_snapshots, bytes));
   for (Slot& slot : slots) {
     slot.rows = no_rows(numbers_at_once_);
     slot.snapshot.u.reserve(nodes, layout.components);
     slot.snapshot.v.reserve(nodes, layout.components);
     slot.snapshot.contacts.reserve(contacts);
+    slot.snapshot.series.reserve(series);
   }
   return slots;
 }

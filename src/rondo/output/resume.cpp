@@ -18,6 +18,7 @@
 #include "rondo/integrators/massless/ring_contact.hpp"
 #include "rondo/io/directory.hpp"
 #include "rondo/io/files.hpp"
+#include "rondo/model/friction_work.hpp"
 #include "rondo/model/loaded_rim.hpp"
 #include "rondo/model/solid/swept_part.hpp"
 #include "rondo/model/steps/step_table.hpp"
@@ -185,6 +186,8 @@ bool fits(const dynamics::SavedState& s, const Setup& setup) {
          s.energy.size() == n_free && s.poses.size() == n_free &&
          (massless ? dynamics::MasslessContact::is_saved(s.ring, model.contact->nodes.size())
                    : s.ring.empty()) &&
+         (model.friction_work ? model.friction_work->is_saved(s.friction_work)
+                              : s.friction_work.empty()) &&
          s.interface.size() == joined && s.rim.size() == rim_numbers &&
          std::ranges::all_of(s.rim, is_finite) && s.step > 0 &&
          std::ranges::is_sorted(s.impulses, {}, first_of);

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/model/friction_work.hpp"
+#include "rondo/output/friction_record.hpp"
 
 namespace rondo::study {
 namespace {
@@ -34,7 +36,8 @@ void take_contacts(const dynamics::Model& model, const dynamics::State& state,
                         .force = to_frame_of(*first, in_space, force),
                         .force_fixed = ground.to_wheel(force),
                         .on_ground = c.on_ground,
-                        .sticks = in_space && c.status == contact::Status::stick});
+                        .sticks = in_space && c.status == contact::Status::stick,
+                        .power = dynamics::friction_work_of(c) / model.dt});
   }
 }
 
@@ -56,6 +59,8 @@ Snapshot& fill_snapshot(const Setup& setup, const dynamics::State& state, Snapsh
   s.v = state.v;
   s.poses = state.poses;
   take_contacts(setup.model, state, s.contacts);
+  s.series.clear();
+  append_friction_work(setup.model, s.series);
   return s;
 }
 

@@ -51,6 +51,7 @@ SnapshotFiles::SnapshotFiles(const std::filesystem::path& directory, const Recor
   extent_.resize(nb);
   on_ground_.resize(nb);
   slip_.resize(nb);
+  power_.resize(nb);
   sticks_.resize(nb);
   rows_.reserve((columns().size() + further_columns_.size()) * nb);
 }
@@ -61,12 +62,14 @@ void SnapshotFiles::collect_contact(const Snapshot& snapshot) {
   std::fill(sticks_.begin(), sticks_.end(), char{1});
   std::ranges::fill(force_, Vec3{});
   std::ranges::fill(force_fixed_, Vec3{});
+  std::ranges::fill(power_, 0.0);
   for (const ContactForce& c : snapshot.contacts) {
     RONDO_ASSERT(c.candidate < force_.size(), c.candidate, force_.size());
     force_[c.candidate] += c.force;
     force_fixed_[c.candidate] += c.force_fixed;
     if (c.on_ground) on_ground_[c.candidate] = 1;
     slip_[c.candidate] = c.slip;
+    power_[c.candidate] += c.power;
     if (c.force != Vec3{} && !c.sticks) sticks_[c.candidate] = 0;
     extent_[c.candidate] = boundary_.extent(c.candidate, snapshot.u);
   }
@@ -97,6 +100,7 @@ void SnapshotFiles::write_contact_rows(const Snapshot& snapshot) {
     r.traction = force_[k] / extent_[k];
     r.extent = extent_[k];
     r.slip = slip_[k];
+    r.power = power_[k] / extent_[k];
     r.sticks = sticks_[k] != 0;
     append_values(columns(), r, rows_);
     append_values(further_columns_, r, rows_);

@@ -54,6 +54,7 @@ class SnapshotFiles {
   std::vector<double> extent_;             ///< (nb) of the deformed boundary, for nodes in contact
   std::vector<char> on_ground_;            ///< (nb) 1: the ground touches it
   std::vector<double> slip_;               ///< (nb)
+  std::vector<double> power_;              ///< (nb)                                  [W/m], [W]
   std::vector<char> sticks_;               ///< (nb)
   std::optional<fem::SolidStressRecovery> solid_stress_;
   GroundFrame in_ground_;

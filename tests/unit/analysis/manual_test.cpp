@@ -69,6 +69,7 @@ TEST(Manual, HasTheColumns) {
        table_of("wheel in three dimensions", further(solid)),
        table_of("contact.csv", labels_of(contact_columns(false))),
        table_of("contact.csv of a wheel in three dimensions", labels_of(contact_columns(true))),
+       table_of("contact.csv in time", further_contact_of({})),
        table_of("contact.csv steady-rolling", further_contact_of(rolls)),
        table_of("slip-step.csv", slip_step_labels())});
 }

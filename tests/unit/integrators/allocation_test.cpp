@@ -2,12 +2,14 @@
 /// The step allocates nothing.
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "integrator_cases.hpp"
 #include "rondo/integrators/general/general_integrator.hpp"
+#include "rondo/model/friction_work.hpp"
 #include "support/allocations.hpp"
 #include "support/implicit.hpp"
 #include "support/rubber.hpp"
@@ -46,6 +48,7 @@ TEST_P(Allocations, NoneInTheStepsOfAnIntegrator) {
   const auto [of, threads] = GetParam();
   dynamics::Model model = test::model_with(test::build(test::everything("", 6, 90)), of);
   model.threads = threads;
+  model.friction_work = std::make_shared<dynamics::FrictionWork>(model);
   dynamics::State state = test::start_at_rest(model);
   const auto integrator = dynamics::make_integrator(model, state);
   std::vector<dynamics::StepReport> reports(64);
@@ -118,6 +121,7 @@ TEST(Allocation, NoneInTheStepsOfAWheelInThreeDimensions) {
     test::Cornering cornering;
     cornering.slip_angle = 0.05;
     dynamics::Model model = test::cornering_model(mesh, cornering);
+    model.friction_work = std::make_shared<dynamics::FrictionWork>(model);
     model.threads = threads;
     const Field zero(model.n_nodes(), 3);
     dynamics::State state = dynamics::start(model, zero, zero);

@@ -30,6 +30,7 @@
 #include "rondo/core/limits/processors.hpp"
 #include "rondo/integrators/fused/batch_integrator.hpp"
 #include "rondo/mesh/edges.hpp"
+#include "rondo/model/friction_work.hpp"
 #include "rondo/statics/stationary_spin.hpp"
 
 namespace rondo::study {
@@ -338,6 +339,8 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared, Steps steps) {
                s.model.n_nodes(), s.mesh.n_nodes(), s.probes.size());  // make_body() has been
   set_motion_and_friction(c, s.model);
   set_wheel_road(c, s);
+  if (c.output.friction_work)
+    s.model.friction_work = std::make_shared<dynamics::FrictionWork>(s.model);
   const int ratio = s.model.subdomains ? s.model.subdomains->ratio : 1;
   s.model.dt = ratio * choose_step(c, s.critical);
   s.n_steps = count_steps(c, s.model.dt);

@@ -216,6 +216,13 @@ double SteadyState<D>::slip(std::size_t pair) const {
 }
 
 template <int D>
+double SteadyState<D>::friction_of(std::size_t pair) const {
+  const auto row = static_cast<Index>(D * pair);
+  return -force(pair).template tail<D - 1>().dot(
+      solution_.gap_and_slip.template segment<D - 1>(row + 1));
+}
+
+template <int D>
 void SteadyState<D>::add(std::size_t pair, double share, SteadySums& s) const {
   const auto row = static_cast<Index>(D * pair), at = static_cast<Index>((D - 1) * pair);
   const statics::NodeVector<D> r = force(pair);
@@ -229,7 +236,7 @@ void SteadyState<D>::add(std::size_t pair, double share, SteadySums& s) const {
   (sticks ? s.stick : s.slip) += share * extent;
   s.pressure = std::max(s.pressure, r[0] / extent);
   s.shear = std::max(s.shear, (D == 2 ? std::abs(shear[0]) : shear.norm()) / extent);
-  s.friction -= share * shear.dot(solution_.gap_and_slip.template segment<D - 1>(row + 1));
+  s.friction += share * friction_of(pair);
   s.speed = std::max(s.speed, std::abs(slip(pair)));
   s.penetration = std::max(s.penetration, -gap);
 }
@@ -358,6 +365,7 @@ void SteadyState<D>::fill(int place, Snapshot& s) {
     f.force = {to_frame(normal, Vec2{r[1], r[0]}), D == 2 ? 0.0 : r[D - 1]};
     f.force_fixed = {fixed[0], fixed[1], D == 2 ? 0.0 : fixed[D - 1]};
     f.slip = slip(k);
+    f.power = friction_of(k);
     f.sticks = solution_.status[k].status == Status::stick;
   }
   std::ranges::sort(s.contacts, {}, &ContactForce::candidate);

@@ -94,6 +94,8 @@ class SteadyState final : public RolledState {
   }
   /// The slip of a pair: in the plane along t1 with its sign, in space its length [m/s].
   [[nodiscard]] double slip(std::size_t pair) const;
+  /// The power that friction takes at a pair                                      [W/m], [W]
+  [[nodiscard]] double friction_of(std::size_t pair) const;
 
   const Case& case_;
   const SteadyBody<D>& body_;

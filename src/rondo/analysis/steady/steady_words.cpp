@@ -51,10 +51,9 @@ void SteadyBody<D>::add_columns(RecordPlan& plan) const {
   plan.columns = history_labels({.solid = D == 3});
   for (ColumnLabel& label : labels_of(std::span<const Column<R>>(own_columns<D>)))
     plan.columns.push_back(std::move(label));
-  if (D == 2)
-    plan.contact_columns = plane_pair_columns;
-  else
-    plan.contact_columns = solid_pair_columns;
+  static const std::array plane{plane_pair_columns[0], plane_pair_columns[1], friction_column()};
+  static const std::array solid{solid_pair_columns[0], friction_column()};
+  plan.contact_columns = D == 2 ? std::span<const Column<P>>(plane) : solid;
 }
 
 template <int D>

@@ -95,6 +95,8 @@ constexpr std::array rows{
     CaseFeature{has::friction_law, "ground.patch[0]", "no [[ground.patch]]", has_patches_alone},
     CaseFeature{has::friction_law, "ground.friction", "a number ground.friction, and no patches",
                 [](const Case& c) { return c.ground && !c.ground->friction.is_constant(); }},
+    CaseFeature{has::friction_work, "output.friction_work", "output.friction_work = false",
+                [](const Case& c) { return c.output.friction_work; }},
     CaseFeature{has::stiffness_damping, "damping.stiffness", "damping.stiffness = 0",
                 [](const Case& c) { return c.damping.stiffness > 0.0; }},
     CaseFeature{has::stress_stiffening, "material.stress_stiffening",

@@ -4,10 +4,11 @@
 #include <algorithm>
 
 #include "rondo/core/index.hpp"
+#include "rondo/model/friction_work.hpp"
 
 namespace rondo::dynamics {
 
-BodiesContact::BodiesContact(const Model& model) : contact_(model), state_(model) {}
+BodiesContact::BodiesContact(const Model& model) : model_(model), contact_(model), state_(model) {}
 
 std::span<TouchingNode> BodiesContact::find(const FrameStep& frame) {
   state_.frame = frame;
@@ -27,6 +28,7 @@ ContactReport BodiesContact::solve(const BodyFrames& frames, Vec2 center) {
     state_.v_next.plane()[at(t.node)] = t.free;
   }
   const ContactReport report = contact_.solve_found(frames, center, state_);
+  if (model_.friction_work) model_.friction_work->add(model_, state_);
   for (TouchingNode& t : touching_) t.after = state_.v_next.plane()[at(t.node)];
   return report;
 }

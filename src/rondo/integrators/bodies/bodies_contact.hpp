@@ -20,6 +20,7 @@ struct TouchingNode {
 
 class BodiesContact {
  public:
+  /// The model must outlive it.
   explicit BodiesContact(const Model& model);
 
   /// Nodes whose places the search looks at now, as ContactFinder::boundary_after().
@@ -47,6 +48,7 @@ class BodiesContact {
   }
 
  private:
+  const Model& model_;
   GeneralContact contact_;
   State state_;  ///< u of the boundary, v and v_next of what touches
   std::vector<TouchingNode> touching_;

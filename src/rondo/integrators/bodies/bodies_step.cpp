@@ -47,6 +47,7 @@ void BodiesIntegrator::advance_batch(std::span<StepReport> reports) noexcept {
   } else {
     make_steps(reports, {});
   }
+  if (model_.friction_work) model_.friction_work->settle();
 }
 
 void BodiesIntegrator::make_steps(std::span<StepReport> reports, Share share) noexcept {

@@ -14,6 +14,7 @@
 #include "rondo/integrators/fused/solid/solid_plan.hpp"
 #include "rondo/integrators/fused/sparse_plan.hpp"
 #include "rondo/integrators/general/step_traps.hpp"
+#include "rondo/model/friction_work.hpp"
 #include "rondo/model/solid/swept_part.hpp"
 
 namespace rondo::dynamics {
@@ -265,12 +266,14 @@ void BatchIntegrator::advance(std::span<StepReport> reports, State* last) noexce
     const std::size_t n = std::min(before.size(), steps_.size());
     advance_batch(before.first(n));
     before = before.subspan(n);
+    if (model_.friction_work) model_.friction_work->settle();
   }
   if (!last) return;
   const Nodes nodes = last->v.empty() ? Nodes::candidates : Nodes::free;
   save_displacement(nodes, last->u);
   if (nodes == Nodes::free) save_velocity(last->v);
   advance_batch(reports.last(1));
+  if (model_.friction_work) model_.friction_work->settle();
   if (!last->v_next.empty()) save_velocity(last->v_next);
   last->active.clear();
   save_active(last->active);

@@ -5,6 +5,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/cyclic_chunk.hpp"
+#include "rondo/model/friction_work.hpp"
 
 namespace rondo::dynamics {
 
@@ -106,6 +107,8 @@ void CyclicChunk::solve_node(const Work& work, const Touching& t) noexcept {
   take_impulse(work, t, node, after, part ? &part->sums : nullptr);
   if (!part) return;
   part->contact.add(report);
+  if (model_.friction_work)
+    model_.friction_work->add(work.step->contact->rotation * node.arm, active);
   if (work.last) active_.insert(active_.end(), active.begin(), active.end());
 }
 

@@ -8,6 +8,7 @@
 #include "rondo/core/index.hpp"
 #include "rondo/integrators/fused/tail/implicit_tail.hpp"
 #include "rondo/integrators/fused/tail/massless_tail.hpp"
+#include "rondo/model/friction_work.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -313,6 +314,8 @@ void SparseIntegrator::solve_node(const Work& work, const Touching& t, PartialSt
     work.next[2 * c.row + 1] = u.y;
     correct_sums(*work.step, node, after, forces, part.sums);
   }
+  if (model_.friction_work)
+    model_.friction_work->add(work.step->contact->rotation * node.arm, active);
   std::vector<ActiveContact>& all = work.contacts->active;
   if (work.last) all.insert(all.end(), active.begin(), active.end());
 }

@@ -3,6 +3,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/general/step_traps.hpp"
+#include "rondo/model/friction_work.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -32,9 +33,11 @@ void ReadableStep::advance(std::span<StepReport> reports, State* last) noexcept 
     report.step = ++state_.step;
     StepEnergy energy;
     make_step(energy, report);
+    if (model_.friction_work) model_.friction_work->add(model_, state_);
     ledger_.add(energy);
     report.balance = ledger_.last();
   }
+  if (model_.friction_work) model_.friction_work->settle();
   if (!last) return;
   last->step = state_.step;
   last->frame = state_.frame;

@@ -6,6 +6,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/model/friction_work.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -149,6 +150,11 @@ void ImplicitContact::solve(const ContactStep& step, const PlaneField& free, Pla
                          (conj(step.rotation) * from_frame(active_[j].normal, coupled_.impulse[j]));
     impulse.put(place, impulse.at(place) + on_node);
   }
+}
+
+void ImplicitContact::add_friction(const ContactStep& step, FrictionWork& work) const noexcept {
+  for (std::size_t j = 0; j < rows_.size(); ++j)
+    work.add(step.rotation * rows_[j].arm, {&active_[j], 1});
 }
 
 void ImplicitContact::report(const ContactStep& step, const PlaneField& before,

@@ -32,6 +32,8 @@ class ImplicitContact {
               ContactReport& report);
   /// Contacts of the last step, in the order of the candidates.
   [[nodiscard]] const std::vector<ActiveContact>& active() const noexcept { return active_; }
+  /// Adds these contacts. @param step the one of report()
+  void add_friction(const ContactStep& step, FrictionWork& work) const noexcept;
 
   /// The impulses from which the next step starts, and the difficult problems.
   [[nodiscard]] const contact::CoupledContacts& coupled() const noexcept { return coupled_; }

@@ -308,6 +308,16 @@ void CornerSolver::finish(const SolidContactStep& step, CornerRow& row, State& s
   add_active(step, row, state);
 }
 
+namespace {
+
+/// A velocity of a row in the frame of its nodes: that of an edge's nodes has the opposite normal,
+/// but the same t2.
+Vec3 of_node(const CornerRow& row, Vec3 a) noexcept {
+  return row.kind == ContactKind::facet ? a : Vec3{a.x, a.y, -a.z};
+}
+
+}  // namespace
+
 /// A node on a facet is pushed along the normal, the nodes of an edge against it.
 void CornerSolver::add_active(const SolidContactStep& step, const CornerRow& row,
                               State& state) const {
@@ -319,9 +329,9 @@ void CornerSolver::add_active(const SolidContactStep& step, const CornerRow& row
     a.space.normal = axes.to_ground(row.kind == ContactKind::facet ? row.normal : -row.normal);
     a.space.line = axes.to_ground({0.0, 0.0, 1.0});
     a.gap = row.gap;
-    a.before = row.before;
-    a.free = row.free;
-    a.after = row.after;
+    a.before = of_node(row, row.before);
+    a.free = of_node(row, row.free);
+    a.after = of_node(row, row.after);
     a.bounce = row.bounce;
     a.friction = row.friction;
     a.impulse = a.space.to(push);

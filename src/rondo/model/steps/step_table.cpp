@@ -44,6 +44,7 @@ constexpr std::array names{
                 "friction that is not constant, with implicit elements"},
     FeatureName{has::friction_law | has::massless,
                 "friction that is not constant, with contact nodes without mass"},
+    FeatureName{has::friction_work, "friction work in the results"},
     FeatureName{has::stiffness_damping, "stiffness damping"},
     FeatureName{has::stress_stiffening, "stress stiffening"},
     FeatureName{has::plane_stress, "plane stress"},
@@ -164,6 +165,9 @@ constexpr std::array limits{
           "the scheme \"hati\" supports contact with the ground only"},
     Limit{has::friction_law, has::hati, any,
           "the scheme \"hati\" has one coefficient of friction for all contacts"},
+    Limit{has::friction_work, has::hati, any,
+          "the scheme \"hati\" repeats its fine steps until both parts agree, and does not keep "
+          "where the nodes of each were"},
     Limit{has::pressure, has::hati, any, "the scheme \"hati\" supports no load except the ground"},
     Limit{has::massless, has::sharp_corners, any,
           "the ground has sharp convex corners, which touch between two nodes"},
@@ -229,6 +233,8 @@ constexpr std::array limits{
           "ground.impact = \"energy-safe\" is a law of velocities, and that of a reduced wheel is "
           "one of gaps"},
     Limit{has::friction_law, has::reduced, any, "a reduced wheel has one coefficient of friction"},
+    Limit{has::friction_work, has::reduced, any,
+          "the contacts of a reduced wheel have forces and gaps, but no slip of their own"},
     Limit{has::stress_stiffening, has::reduced | has::viscosity, any,
           "in a reduced wheel of a viscous material all of the stiffness creeps, and that of the "
           "stress does not"},
@@ -304,6 +310,7 @@ Features features_of(const Model& m) noexcept {
   add(m.contact && m.contact->law.restitution > 0.0, has::restitution);
   add(m.contact && m.contact->law.impact == contact::Impact::energy_safe, has::energy_safe);
   add(has_friction_law(m), has::friction_law);
+  add(m.friction_work != nullptr, has::friction_work);
   add(m.stiffness_damping > 0.0, has::stiffness_damping);
   add(m.scheme != Scheme::symplectic, has::other_scheme);
   add(m.subdomains.has_value(), has::hati);

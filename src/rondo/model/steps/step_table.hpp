@@ -44,6 +44,7 @@ enum Feature : Features {
   nonlinear_cords = 1U << 22,    ///< SolidBody::swept
   nonlinear_ogden = 1U << 23,    ///< SweptPart::rubber, by that law
   viscosity = 1U << 24,          ///< branches of small strain: Model::viscous, SolidBody::viscous
+  friction_work = 1U << 25,      ///< of a case: by node and place, in results.h5
 };
 }  // namespace has
 

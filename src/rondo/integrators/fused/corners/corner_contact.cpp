@@ -7,6 +7,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/model/friction_work.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -151,6 +152,7 @@ void CornerContact::solve(const StepContext& step, CandidateFields& fields,
       velocity_update(boundary_.scheme, boundary_.dt, boundary_.mass_damping, step.frame.spin);
   const BodyFrames frames({step.frame, update, *step.contact});
   part.contact = contact_.solve_found(frames, step.frame.center.plane(), state_);
+  if (boundary_.friction_work) boundary_.friction_work->add(boundary_, state_);
   for (const Held& h : held_) {
     const std::size_t k = h.candidate;
     const Vec2 after = state_.v_next.plane()[k];

@@ -19,6 +19,7 @@ Model boundary_of(const Model& model) {
   Model b;
   b.contact = model.contact;
   b.coupled = model.coupled;
+  b.friction_work = model.friction_work;
   b.motion = model.motion;
   b.rim = model.rim;
   b.scheme = model.scheme;

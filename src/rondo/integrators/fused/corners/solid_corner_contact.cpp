@@ -7,6 +7,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/model/friction_work.hpp"
 #include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::dynamics {
@@ -107,6 +108,7 @@ void SolidCornerContact::solve(const StepContext& step, CandidateFields& fields,
     h.forces.internal = motion.internal;
   }
   solver_.solve(*step.solid_contact, kept_, state_, part.contact);
+  if (boundary_.friction_work) boundary_.friction_work->add(boundary_, state_);
   keep_impulses();
   for (const Held& h : held_) {
     const std::size_t k = h.candidate;

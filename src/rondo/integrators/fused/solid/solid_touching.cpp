@@ -6,6 +6,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/integrators/fused/solid/solid_chunk.hpp"
+#include "rondo/model/friction_work.hpp"
 #include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::dynamics {
@@ -112,6 +113,10 @@ void SolidChunk::solve_node(const Work& work, const Touching& t) noexcept {
   else
     correct_sums(*work.step, frame, own, after, forces, part.sums);
   part.contact.add(report);
+  if (model_.friction_work) {
+    const SolidContactStep& step = *work.step->solid_contact;
+    model_.friction_work->add(step.ground.from_wheel(step.plane.rotation * node.arm), active);
+  }
   if (work.last) active_.insert(active_.end(), active.begin(), active.end());
 }
 

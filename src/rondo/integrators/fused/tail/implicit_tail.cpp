@@ -58,6 +58,8 @@ class ImplicitTail final : public StepTail {
     explicit_ = v_;
     const ImplicitEnergy energy =
         elements_.solve(step.frame.spin, step.contact ? &*step.contact : nullptr, v_, part.contact);
+    if (model_.friction_work && elements_.contact())
+      elements_.contact()->add_friction(*step.contact, *model_.friction_work);
     const PlaneField& u = elements_.u();
     for (std::size_t i = 0; i < size(); ++i) {
       u_.x[i] = u.x[i] + model_.dt * v_.x[i];

@@ -8,6 +8,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/integrators/massless/ring_arc.hpp"
+#include "rondo/model/friction_work.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -77,6 +78,7 @@ class MasslessTail final : public StepTail {
     if (damped()) correct_dissipation(part.sums);
     ring_.fields.write(next_, velocity_);
     part.contact = contact_.report(*step.contact, step.frame.center.plane(), active_);
+    if (model_.friction_work) add_friction(*step.contact);
   }
 
   [[nodiscard]] const char* held() const noexcept override { return held_.data(); }
@@ -117,6 +119,14 @@ class MasslessTail final : public StepTail {
     find_ring(ContactStep(model_, frame, update));
     ring_.fields.write(next_, velocity_);
     is_known_ = false;  // but for the force
+  }
+
+  void add_friction(const ContactStep& step) noexcept {
+    for (const ActiveContact& c : active_) {
+      const Vec2 arm = model_.reference[at(contact_.nodes()[c.candidate])] +
+                       contact_.motion().place[c.candidate];
+      model_.friction_work->add(step.rotation * arm, {&c, 1});
+    }
   }
 
   void read_around() noexcept {
