@@ -35,20 +35,35 @@ std::string place_text(double u, double v) {
   return fmt::format("u = {:.6g} m, v = {:.6g} m", u, v);
 }
 
-/// The part that the wheel comes to. All of the length where it is not known, or where the road
-/// goes on beyond its ends.
-RoadPart reached_part(const Case& c, const Setup& s, const Surface& surface) {
+/// Whether the road begins again, or goes back, beyond the ends of an axis.
+bool goes_on(const road::Axis& axis) {
+  return axis.border() == Border::repeat || axis.border() == Border::reflect;
+}
+
+/// The part that the wheel comes to, as far along as it is known.
+RoadPart reached_part(const Case& c, const Setup& s) {
   const RoadCase& road = c.ground->road;
   const Stretch across = reach_across(c, s.mesh);
   RoadPart part{.v_from = road.offset - across.to, .v_to = road.offset - across.from};
   if (s.model.rim && s.model.rim->free_x) return part;
   const Stretch along = reach_along(c, s.mesh);
-  const double from = along.from + *road.start, to = along.to + *road.start;
-  const Border border = surface.edges().u;
-  const bool goes_on = border == Border::repeat || border == Border::reflect;
-  if (goes_on && !(from >= surface.u_axis().first() && to <= surface.u_axis().last())) return part;
-  part.u_from = from;
-  part.u_to = to;
+  part.u_from = along.from + *road.start;
+  part.u_to = along.to + *road.start;
+  return part;
+}
+
+/// The part of the grid that the wheel meets there: the whole of an axis that goes on, if the wheel
+/// comes beyond an end of it.
+RoadPart met_part(const RoadPart& reached, const Surface& surface) {
+  RoadPart part = reached;
+  const auto is_left = [](const road::Axis& axis, double from, double to) {
+    return goes_on(axis) && !(from >= axis.first() && to <= axis.last());
+  };
+  const RoadPart whole;
+  if (is_left(surface.u_axis(), part.u_from, part.u_to))
+    part.u_from = whole.u_from, part.u_to = whole.u_to;
+  if (is_left(surface.v_axis(), part.v_from, part.v_to))
+    part.v_from = whole.v_from, part.v_to = whole.v_to;
   return part;
 }
 
@@ -150,7 +165,8 @@ std::string end_text(const Surface& surface, const RoadPart& part) {
       step.value, place_text(step.u, step.v));
 }
 
-void tell(const Case& c, Setup& s, const Surface& surface, const road::RoadReport& report) {
+void tell(const Case& c, Setup& s, const Surface& surface, const RoadPart& reached,
+          const road::RoadReport& report) {
   const RoadCase& road = c.ground->road;
   const Stretch on_road{surface.u_axis().first() - *road.start,
                         surface.u_axis().last() - *road.start};
@@ -159,10 +175,10 @@ void tell(const Case& c, Setup& s, const Surface& surface, const road::RoadRepor
       fmt::format("x is u - {:.6g} m, t2 is {:.6g} m - v; y is the height of the smooth surface "
                   "less that at x = t2 = 0, {:.6g} m in the file",
                   *road.start, road.offset, road.height));
-  line(fmt::format(
-      "The road goes from x = {:.6g} to {:.6g} m; before and behind it, {}. The wheel "
-      "comes to v = {:.4g} to {:.4g} m.",
-      on_road.from, on_road.to, beyond_text(road), report.part.v_from, report.part.v_to));
+  line(
+      fmt::format("The road goes from x = {:.6g} to {:.6g} m; before and behind it, {}. The wheel "
+                  "comes to v = {:.4g} to {:.4g} m.",
+                  on_road.from, on_road.to, beyond_text(road), reached.v_from, reached.v_to));
   for (std::string& text : road::lines_of(*road.read, report, surface.edges()))
     line(std::move(text));
   for (std::string& warning :
@@ -178,15 +194,15 @@ void set_wheel_road(const Case& c, Setup& s) {
   RONDO_DEMAND(s.model.solid && c.ground->road.start, c.ground->road.file);
   const RoadCase& road = c.ground->road;
   Surface surface(*road.read, edges_of(road));
-  const RoadPart part = reached_part(c, s, surface);
-  refuse_beyond_sides(c, surface, part);
-  refuse_holes(c, surface, part);
-  const road::RoadReport report = road::report_of(*road.read, surface, part);
+  const RoadPart reached = reached_part(c, s), met = met_part(reached, surface);
+  refuse_beyond_sides(c, surface, reached);
+  refuse_holes(c, surface, met);
+  const road::RoadReport report = road::report_of(*road.read, surface, met);
   refuse_steep(c, report.steepest);
-  tell(c, s, surface, report);
+  tell(c, s, surface, reached, report);
   s.model.contact->space = std::make_shared<const contact::RoadGround>(
       std::move(surface), contact::RoadPlacing{*road.start, road.offset, road.height},
-      RoadPart{.v_from = part.v_from, .v_to = part.v_to});
+      RoadPart{.v_from = reached.v_from, .v_to = reached.v_to});
 }
 
 }  // namespace rondo::study
