@@ -15,8 +15,8 @@ SHORT = replaced(WHEEL, "end", "end = 0.012")
 ON_ROAD = replaced(SHORT, "profile", 'road = "a.crg"\nroad_start = 0.5')
 ON_COBBLES = replaced(SHORT, "profile", f'road = "{COBBLES}"\nroad_start = 1.0\nroad_offset = 0.03')
 # The rim rises and turns by the forces on it; nodes bounce.
-FREE = (replaced(ON_COBBLES, "height", "height = 0.312") + '[rim]\nfree = ["height", "angular_velocity"]\nmass = 5.0\ninertia = 0.1\n'
-        "force_y = -8000.0\n")
+FREE = (replaced(ON_COBBLES, "height", "height = 0.312") +
+        '[rim]\nfree = ["height", "angular_velocity"]\nmass = 5.0\ninertia = 0.1\nforce_y = -8000.0\n')
 
 
 def even_v(n=25, step=1 / 64):
@@ -33,8 +33,7 @@ def crg(z, v=None, step=STEP, options=""):
     """An OpenCRG file of text in double precision, from u = 0 on."""
     v = even_v() if v is None else v
     sections = "".join(f"D:long section at v = {x!r},m\n" for x in map(float, v))
-    number = lambda x: "*missing*".rjust(20) if np.isnan(x) else f"{x:20.13e}"
-    lines = [[number(x) for x in row] for row in z]
+    lines = [["*missing*".rjust(20) if np.isnan(x) else f"{x:20.13e}" for x in row] for row in z]
     rows = "".join("".join(row[k:k + 4]) + "\n" for row in lines for k in range(0, len(row), 4))
     return (f"$ROAD_CRG\nREFERENCE_LINE_START_U = 0.0\nREFERENCE_LINE_INCREMENT = {step!r}\n$\n{options}"
             f"$KD_Definition\n#:LDFI\n{sections}$\n$$$$\n{rows}")
@@ -91,7 +90,7 @@ class AgainstProfiles(RoadRun):
         scale = leaning["force_y"].max()
         self.assertGreater(scale, 1000.0)
         for name, along in (("force_y", normal), ("force_lateral", lateral), ("force_x", upright["force_x"])):
-            self.assertLess(np.abs(along - leaning[name]).max(), 1e-5 * scale, name)  # slopes in single precision
+            self.assertLess(np.abs(along - leaning[name]).max(), 1e-5 * scale, name)  # slopes are floats
 
     def test_a_mirrored_road_has_mirrored_forces(self):
         z = heights(waves)
@@ -272,6 +271,10 @@ class Refused(ProgramTest):
                      given=("ground.road_offset=0.15",), options="$ROAD_CRG_OPTS\nBORDER_MODE_V = 0\n$\n")
         self.refused(flat + 0.01, "beyond its side there is a step of 0.01 m", "BORDER_MODE_V = 2",
                      given=("ground.road_offset=0.15",), options="$ROAD_CRG_OPTS\nBORDER_MODE_V = 1\n$\n")
+        # Beyond a side that repeats, it meets the other one.
+        repeat = "$ROAD_CRG_OPTS\nBORDER_MODE_V = 3\n$\n"
+        kerb = flat + 0.03 * (np.abs(even_v() + 0.14) < 0.02)
+        self.refused(kerb, "has a slope of", "v = -0.1", given=("ground.road_offset=0.17",), options=repeat)
         # Slip takes it there.
         self.refused(flat, "the wheel comes to v = -0.", "less drift by motion.slip_angle",
                      given=("motion.slip_angle=0.7", "time.end=0.03"),

@@ -4,10 +4,12 @@
 
 #include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/residual.hpp"
+#include "rondo/contact/road_ground.hpp"
 #include "rondo/contact/search.hpp"
 #include "rondo/contact/segment.hpp"
 #include "support/allocations.hpp"
 #include "support/contact_problems.hpp"
+#include "support/crg_files.hpp"
 
 namespace allocation_test {
 
@@ -72,6 +74,23 @@ TEST(Allocation, NoneInSearchAndClusters) {
   search();
   EXPECT_EQ(allocations() - before, 0);
   EXPECT_GT(found, 100);
+}
+
+/// It is asked in each time step.
+TEST(Allocation, NoneOnARoad) {
+  const RoadGround ground(
+      road::Surface(test::road_by([](double u, double v) { return 0.1 * std::sin(u) * v; }, 3.0,
+                                  0.2, 12, {-1.0, -0.3, 0.0, 0.1})),
+      {4.0, 0.0, 0.0});
+  const long before = allocations();
+  int touched = 0;
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 place{0.01 * k, 0.002 * (k % 7 - 3), -0.002 * k};
+    if (place.y <= ground.top(place.x - 0.1, place.x + 0.1)) touched += ground.touches(place).count;
+  }
+  EXPECT_EQ(allocations() - before, 0);
+  EXPECT_GT(touched, 10);
+  EXPECT_LT(touched, 90);
 }
 
 }  // namespace allocation_test
