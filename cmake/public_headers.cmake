@@ -9,11 +9,11 @@ set(RONDO_PUBLIC_HEADERS
     road/crg/crg_reader.hpp road/road_report.hpp
     mesh/mesh.hpp mesh/disk.hpp mesh/gmsh_reader.hpp
     fem/elasticity.hpp fem/assembly.hpp fem/sector_stiffness.hpp fem/stress.hpp
-    contact/ground.hpp model/model.hpp model/integrator.hpp model/internal_force.hpp
+    contact/ground.hpp model/model.hpp model/friction_work.hpp model/integrator.hpp model/internal_force.hpp
     model/stability/critical_step.hpp
     integrators/integrator.hpp integrators/start.hpp)
 set(RONDO_INCLUDED_HEADERS
-    core/complex.hpp core/contract.hpp core/field.hpp core/ground_frame.hpp core/index.hpp core/sum.hpp core/vec2.hpp core/vec3.hpp
+    core/complex.hpp core/contract.hpp core/exact_sums.hpp core/field.hpp core/ground_frame.hpp core/index.hpp core/sum.hpp core/vec2.hpp core/vec3.hpp
     case/analysis_kinds.hpp case/inflation_case.hpp case/inflation_figures.hpp analysis/modes/standing.hpp
     analysis/build/bodies.hpp io/h5/h5.hpp io/h5/hash.hpp
     fem/element.hpp fem/nodal_dilatation.hpp fem/rubber.hpp fem/viscosity.hpp
