@@ -4,9 +4,9 @@
 
 #include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/residual.hpp"
-#include "rondo/contact/road_ground.hpp"
 #include "rondo/contact/search.hpp"
 #include "rondo/contact/segment.hpp"
+#include "rondo/contact/space/road_ground.hpp"
 #include "support/allocations.hpp"
 #include "support/contact_problems.hpp"
 #include "support/crg_files.hpp"

@@ -7,8 +7,8 @@
 #include <array>
 #include <cmath>
 
-#include "rondo/contact/space/edge_axes.hpp"
 #include "rondo/contact/ground.hpp"
+#include "rondo/contact/space/edge_axes.hpp"
 #include "rondo/core/vec3.hpp"
 
 namespace rondo::contact {
@@ -52,7 +52,8 @@ struct SpaceTouches {
 };
 
 /// The touches of a profile that is extruded along its edges.
-[[nodiscard]] inline SpaceTouches extruded(const Touches& plane, const EdgeAxes& axes) noexcept {
+[[nodiscard]] inline SpaceTouches extruded(const Touches& plane,
+                                           const EdgeAxes& axes = {}) noexcept {
   SpaceTouches out{.count = plane.count, .at = {}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(plane.count); ++i)
     out.at[i] = {
