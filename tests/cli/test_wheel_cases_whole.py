@@ -72,6 +72,19 @@ EXPECTED = {
         Figure("spin_rad_s", np.max, 36.0, 1.0, 0.2, 0.25),
         Figure("spin_rad_s", np.min, 5.0, 1.0, 0.25, 0.44),
         Figure("force_x", np.mean, -81.5e3, 100.0, 0.12, 0.44)],
+    "wheel-mu-jump": [
+        Figure("force_x", np.mean, -55.3e3, 100.0, 0.1, 0.14),
+        Figure("spin_rad_s", np.mean, 32.06, 1e-2, 0.1, 0.14),
+        Figure("force_x", np.mean, -14.4e3, 100.0, 0.18, 0.2),
+        Figure("spin_rad_s", np.max, 0.0, 0.0, 0.1898, 0.2092),
+        Figure("spin_rad_s", np.mean, 32.11, 1e-2, 0.36),
+        Figure("force_x", np.mean, -54.6e3, 100.0, 0.36)],
+    "wheel3d-mu-split": [
+        Figure("force_x", np.mean, -2038.0, 1.0, 0.1, 0.14),
+        Figure("moment_aligning", np.max, 0.0, 1e-9, 0.1, 0.14),
+        Figure("force_x", np.mean, -2043.0, 1.0, 0.22),
+        Figure("moment_aligning", np.mean, -29.7, 0.1, 0.22),
+        Figure("force_lateral", np.mean, -82.0, 1.0, 0.22)],
     "wheel-incline": [
         Figure("acceleration", last, 0.62463, 1e-5)],
     "wheel-drop": [

@@ -201,8 +201,10 @@ class Run:
 
     @property
     def friction(self) -> float | None:
-        """Coefficient of friction; None without ground."""
-        return float(self.case["ground"]["friction"]) if "ground" in self.case else None
+        """The one coefficient of friction; None without ground, and where it is by a table or patches."""
+        ground = self.case.get("ground", {})
+        value = ground.get("friction")
+        return float(value) if isinstance(value, (int, float)) and "patch" not in ground else None
 
     @property
     def pitches(self) -> int:

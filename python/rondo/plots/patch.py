@@ -136,7 +136,10 @@ def _along(points: Array) -> Array:
 
 
 def _friction(run: Run, ground: Ground | None) -> float:
-    return float(run.case["contact" if ground is None else "ground"].get("friction", 0.0))
+    """0: none, or there is no one coefficient whose bounds could be drawn."""
+    if ground is None:
+        return float(run.case["contact"].get("friction", 0.0))
+    return run.friction or 0.0
 
 
 @style.paper()

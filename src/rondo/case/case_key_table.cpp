@@ -639,8 +639,9 @@ constexpr CaseKey keys[] = {
      required.body(never), "Place x where that stretch ends"},
     {"ground.patch[].side", "-", FIELD(ground->friction.patches[k].side),
      one_from("both", "left", "right"), optional.body(never),
-     "Side of the middle plane of a wheel in three dimensions, seen along its motion towards +x; a "
-     "node in the middle plane counts by half. For plane bodies \"both\""},
+     "Side of the line that the middle of the ground has below a wheel in three dimensions, seen "
+     "towards +x: \"right\" is lateral > 0. A node on the line counts by half. For plane bodies "
+     "\"both\""},
     {"ground.patch[].factor", "-", FIELD(ground->friction.patches[k].factor), between(0, 100),
      required.body(never),
      "Factor of μ on that stretch; where patches overlap, their factors are multiplied"},

@@ -38,11 +38,15 @@ Factor pressure_factor(const FrictionTable& table, double pressure) noexcept {
   return {value, moves ? table.pressure_exponent * value / pressure : 0.0};
 }
 
-/// How much of a node at `lateral` lies on a side: 0, a half or 1.
+/// Half the width over which one side passes into the other, so that round-off does not decide on
+/// which one a node in the middle plane is                                                     [m]
+constexpr double border = 1e-3;
+
+/// How much of a node at `lateral` lies on a side: from 0 to 1.
 double share_on(Side side, double lateral) noexcept {
   if (side == Side::both) return 1.0;
-  if (lateral == 0.0) return 0.5;
-  return (lateral < 0.0) == (side == Side::left) ? 1.0 : 0.0;
+  const double right = std::clamp(0.5 * (1.0 + lateral / border), 0.0, 1.0);
+  return side == Side::right ? right : 1.0 - right;
 }
 
 }  // namespace

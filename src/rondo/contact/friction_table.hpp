@@ -16,9 +16,10 @@ enum class Side { both, left, right };
 /// A stretch of the ground with another surface: from <= x < to.
 struct FrictionPatch {
   double from = 0.0, to = 0.0;  ///< along t1                                             [m]
-  Side side = Side::both;  ///< left: t2 < 0, right: t2 > 0. On the border between both, t2 = 0,
-                           ///< the factor counts by half, as half of a node lies on the patch
-  double factor = 1.0;     ///< >= 0, of the coefficient                             [-]
+  /// left: t2 < 0, right: t2 > 0. One passes into the other from 1 mm before t2 = 0 to 1 mm behind
+  /// it: for a node in the middle plane the factor counts by half
+  Side side = Side::both;
+  double factor = 1.0;  ///< >= 0, of the coefficient                             [-]
 };
 
 struct FrictionTable {

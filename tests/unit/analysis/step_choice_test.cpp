@@ -43,6 +43,7 @@ const std::map<std::string, StepKind> others{
     {"wheel3d-cobbles", StepKind::solid_cyclic},
     {"wheel3d-cornering", StepKind::solid_cyclic},
     {"wheel3d-load", StepKind::solid_cyclic},
+    {"wheel3d-mu-split", StepKind::solid_cyclic},
     {"wheel3d-standing", StepKind::solid_cyclic},
     {"wheel3d-treaded", StepKind::solid_cyclic},
     {"wheel3d-tyre", StepKind::solid_cyclic},

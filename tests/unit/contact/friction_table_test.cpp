@@ -70,6 +70,9 @@ TEST(FrictionTable, PatchesLieFromOnePlaceToAnotherAndOnTheirSide) {
   EXPECT_DOUBLE_EQ(here(3.0, -0.1), 0.1);
   EXPECT_DOUBLE_EQ(here(3.5, 0.1), 0.5);
   EXPECT_DOUBLE_EQ(here(3.5, 0.0), 0.3) << "half of the node";
+  EXPECT_NEAR(here(3.5, 1e-19), 0.3, 1e-15) << "whatever round-off makes of its place";
+  EXPECT_DOUBLE_EQ(here(3.5, 0.0005), 0.4);
+  EXPECT_DOUBLE_EQ(here(3.5, 0.001), 0.5);
   EXPECT_DOUBLE_EQ(here(4.5, -0.1), 0.05) << "one patch over another";
   EXPECT_DOUBLE_EQ(here(5.0, -0.1), 0.25);
   EXPECT_DOUBLE_EQ(here(6.0, -0.1), 0.5);

@@ -210,6 +210,8 @@ inline std::vector<RollingCase> rolling_cases() {
   all.push_back(rubbing(everything("treaded", 3, tread)));
   all.push_back(rubbing(everything("columns_61_undamped", 4, 61)));
   all.back().disk.alpha = all.back().disk.beta = 0.0;
+  all.push_back(rubbing(everything("bouncing", 6, 90)));  // nodes leave and come back
+  all.back().law.restitution = 0.5;
   return all;
 }
 

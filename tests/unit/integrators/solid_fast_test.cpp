@@ -450,7 +450,12 @@ std::vector<Case> cases() {
   all.push_back({.name = "road_wide", .wheel = test::box_wheel(3, 12, 330), .road = true});
   all.push_back({.name = "no_friction", .friction = 0.0});
   all.push_back({.name = "rubbing", .friction = 0.5, .rubs = true});
-  all.push_back({.name = "rubbing_rim", .beta = 0.0, .friction = 0.5, .rim = true, .rubs = true});
+  all.push_back({.name = "rubbing_rim",
+                 .beta = 0.0,
+                 .friction = 0.5,
+                 .restitution = 0.3,
+                 .rim = true,
+                 .rubs = true});
   all.push_back({.name = "rubbing_wide",
                  .wheel = test::box_wheel(3, 12, 330),
                  .friction = 0.5,

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Friction over slip speed, pressure and place ([ground.friction], [[ground.patch]]) in runs of the program: a block
+that slides to rest against quadrature, wheels on patches, resuming, threads, and what is refused."""
+import shutil
+import unittest
+
+import numpy as np
+
+from program import ROOT, SMALL, ProgramTest, RunTest, history, run, settings, summary
+
+GRAVITY, LENGTH, MASS = 9.81, 0.1, 10.0  # of the block: m/s2, m, kg/m
+TABLE = [[0.0, 1.0], [0.5, 1.2], [3.0, 0.8]]
+# Stiff, so that it slides as a rigid body to 1e-6 of its way, which decreases with 1/E.
+BLOCK = """schema = 1
+[mesh]
+file = "block.msh"
+contact = "foot"
+[material]
+youngs_modulus = 1.0e8
+poissons_ratio = 0.3
+density = 1000.0
+[damping]
+stiffness = 2.0e-5
+[motion]
+gravity = 9.81
+[ground]
+profile = "flat"
+friction = 0.4
+[initial]
+velocity = [2.0, 0.0]
+[time]
+end = 0.8
+step = 1e-5
+[output]
+history_interval = 1e-3
+snapshots = 2
+"""
+FALLING = f"ground.friction={{coefficient = 0.4, slip_speed = {TABLE}}}"
+RUBBER = ("ground.friction={coefficient = 0.6, slip_speed = [[0, 1], [0.3, 1.2], [4, 0.7]], "
+          "pressure_exponent = -0.15, pressure_reference = 2e5}")
+PATCH = "ground.patch=[{from = 0.05, to = 0.12, factor = 0.3}]"
+WHEEL3D = SMALL.replace("inner_radius = 0.15\n", "inner_radius = 0.15\nwidth = 0.1\n").replace(
+    "circumferential = 40\n", "circumferential = 40\naxial = 4\n")
+
+
+def way_to_rest(speed, factor=lambda v: np.interp(v, *zip(*TABLE)), coefficient=0.4):
+    """∫ v dv / (g μ(v)) by Gauss's rule over each stretch of the table [m]."""
+    x, w = np.polynomial.legendre.leggauss(30)
+    knots = sorted({0.0, speed, *(v for v, _ in TABLE if 0.0 < v < speed)})
+    way = 0.0
+    for a, b in zip(knots, knots[1:]):
+        v = 0.5 * (a + b) + 0.5 * (b - a) * x
+        way += 0.5 * (b - a) * np.sum(w * v / (GRAVITY * coefficient * factor(v)))
+    return way
+
+
+class Block(RunTest):
+    text = BLOCK
+
+    def setUp(self):
+        super().setUp()
+        shutil.copy(ROOT / "cases" / "meshes" / "block.msh", self.folder)
+
+    def way(self, *given):
+        """Of the center, until it rests."""
+        self.run_set(*given)
+        self.assertLess(summary(self.out)["energy_residual_relative"], 1e-11)  # of a stiff body at rest
+        h = history(self.out)
+        self.assertEqual(h["sticking_nodes"][-1], h["contact_nodes"][-1])
+        return h["center_x_m"][-1]
+
+    def test_it_slides_to_rest_by_the_quadrature_of_its_table(self):
+        """The coefficient is that of the slip a step before, so that the error is of first order in the step; what is
+        left without it, 4e-7, is of the elasticity of the block and decreases with 1/E."""
+        stiff = "material.youngs_modulus=4e8", "damping.stiffness=1e-5"
+        coarse, fine = (self.way(FALLING, *stiff, f"time.step={step}") for step in ("5e-6", "2.5e-6"))
+        exact = way_to_rest(2.0)
+        self.assertLess(abs(coarse / exact - 1.0), 1e-6)
+        self.assertLess(abs((2.0 * fine - coarse) / exact - 1.0), 1e-6)
+        self.assertGreater(abs(coarse - fine), 1e-7)  # it is there
+        self.assertGreater(abs(way_to_rest(2.0, lambda v: np.ones_like(v)) / exact - 1.0), 0.02)
+
+    def test_it_slides_over_a_patch(self):
+        """Node by node: each does the work of its share of the weight, and goes all the length of the ice. The shares
+        change while the foot, 0.1 m long, comes on it and leaves it: little where the friction is little, as here."""
+        begin, end, ice = 0.1, 0.25, 0.25
+        slides = "ground.friction=0.04", "initial.velocity=[0.45, 0.0]", "time.end=1.8"
+        way = self.way(*slides, f"ground.patch=[{{from = {begin}, to = {end}, factor = {ice}}}]")
+        alone = self.way(*slides)
+        self.assertAlmostEqual(alone, 0.45**2 / (2.0 * 0.04 * GRAVITY), delta=1e-5)
+        self.assertAlmostEqual(way - alone, (1.0 - ice) * (end - begin), delta=1e-4)
+
+    def test_a_power_of_the_pressure_is_another_constant_where_the_pressure_is_uniform(self):
+        """That of the weight on the foot, with so little friction that it does not press the block on one side."""
+        pressure, exponent, coefficient = MASS * GRAVITY / LENGTH, -0.2, 0.02
+        slides = "initial.velocity=[0.15, 0.0]", "time.end=1.2"
+        power = self.way(f"ground.friction={{coefficient = {coefficient}, pressure_exponent = {exponent}, "
+                         f"pressure_reference = {5.0 * pressure}}}", *slides)
+        constant = self.way(f"ground.friction={coefficient * 0.2**exponent}", *slides)
+        plain = self.way(f"ground.friction={coefficient}", *slides)
+        self.assertLess(abs(power - constant), 0.01 * abs(constant - plain))
+
+    def test_a_table_that_is_a_constant_has_the_bits_of_the_number(self):
+        self.run_set("ground.friction=0.4", "time.end=0.1")
+        number = (self.out / "history.csv").read_bytes()
+        for table in ("{coefficient = 0.4, slip_speed = [[0, 1], [2, 1]]}", "{coefficient = 0.4}",
+                      "{coefficient = 0.2, slip_speed = [[0, 2]]}"):
+            self.run_set(f"ground.friction={table}", "time.end=0.1")
+            self.assertEqual((self.out / "history.csv").read_bytes(), number)
+        self.run_set("ground.friction={coefficient = 0.4, slip_speed = [[0, 1], [2, 1.01]]}", "time.end=0.1")
+        self.assertNotEqual((self.out / "history.csv").read_bytes(), number)
+
+
+class Wheels(RunTest):
+    def history_of(self, text, *given):
+        self.run_set(*given, text=text)
+        self.assertLess(summary(self.out)["energy_residual_relative"], 1e-12)
+        return history(self.out)
+
+    def test_balances_close_with_tables_and_forces_follow_them(self):
+        for text in (SMALL, WHEEL3D):
+            rubs = self.history_of(text, RUBBER, PATCH)
+            plain = self.history_of(text, "ground.friction=0.6")
+            self.assertGreater(np.abs(rubs["force_x"] - plain["force_x"]).max(), 0.02 * plain["force_y"].max())
+            self.assertGreater(rubs["dissipation_friction"][-1], 0.0)
+
+    def test_the_readable_step_has_the_same_forces(self):
+        """A [contact] of bodies, of which there is one, takes the general step. Little friction in the slip range, so
+        that round-off does not grow."""
+        given = ("ground.friction={coefficient = 0.4, slip_speed = [[0, 0.8], [0.4, 1], [3, 1.2]], "
+                 "pressure_exponent = -0.15}", PATCH, "output.history_interval=0", "time.end=0.01")
+        fused = self.history_of(SMALL, *given)
+        readable = self.history_of(SMALL, *given, "contact.between=all")
+        for name in ("force_x", "force_y", "torque"):
+            self.assertLess(np.abs(fused[name] - readable[name]).max(), 1e-9 * np.abs(fused["force_y"]).max())
+        self.assertIn("fused cyclic", run("check", self.folder / "case.toml", *settings(*given)).stdout)
+
+    def test_threads_do_not_change_a_bit(self):
+        for text in (SMALL, WHEEL3D):
+            bits = []
+            for threads in (1, 2, 3):
+                self.run_ok(text, "--quiet", "--overwrite", "--threads", threads, *settings(RUBBER, PATCH))
+                bits.append((self.out / "history.csv").read_bytes())
+            self.assertEqual(bits[0], bits[1])
+            self.assertEqual(bits[0], bits[2])
+
+    def test_ice_on_the_other_side_mirrors_side_force_and_yaw_moment(self):
+        def braked(side):
+            return self.history_of(WHEEL3D, "ground.friction=0.8", "motion.angular_velocity=30",
+                                   f"ground.patch=[{{from = 0.02, to = 9, side = '{side}', factor = 0.1}}]")
+        left, right = braked("left"), braked("right")
+        for name in ("force_lateral", "moment_aligning"):
+            size = np.abs(left[name]).max()
+            self.assertGreater(size, 1.0)
+            self.assertLess(np.abs(left[name] + right[name]).max(), 1e-9 * size)
+        self.assertLess(np.abs(left["force_x"] - right["force_x"]).max(), 1e-9 * np.abs(left["force_x"]).max())
+        self.assertLess(left["moment_aligning"][-1], 0.0)  # the right half brakes and turns it to the right
+
+    def test_it_resumes_to_the_same_bits(self):
+        for text in (SMALL, WHEEL3D):
+            self.run_ok(text, "--quiet", "--overwrite", *settings(RUBBER, PATCH))
+            whole = (self.out / "history.csv").read_bytes()
+            self.run_ok(text, "--quiet", "--overwrite", *settings(RUBBER, PATCH, "time.end=0.012",
+                                                                  "output.snapshots=7"))
+            done = run("run", self.folder / "case.toml", "-o", self.out, "--resume", "--quiet",
+                       *settings(RUBBER, PATCH))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual((self.out / "history.csv").read_bytes(), whole)
+
+    def test_another_table_does_not_resume(self):
+        self.run_set(RUBBER, "time.end=0.012", "output.snapshots=7")
+        done = run("run", self.folder / "case.toml", "-o", self.out, "--resume", "--quiet",
+                   *settings(RUBBER, "ground.friction.coefficient=0.5"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("ground.friction.coefficient", done.stderr)
+
+
+class Swept(ProgramTest):
+    def forces(self, *vary):
+        base = self.case(SMALL.replace("friction = 0.3\n", "").replace(
+            "[time]", "[ground.friction]\ncoefficient = 0.3\nslip_speed = [[0, 1], [0.5, 1.2]]\n[time]"))
+        study = self.case(f'schema = 1\nbase = "{base.name}"\n[[vary]]\n' + "\n".join(vary) + "\n", "study.toml")
+        done = run("sweep", study, "-o", self.folder / "sweep", "--quiet", "--overwrite")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [history(self.folder / "sweep" / "runs" / f"000{k}")["force_x"] for k in (1, 2)]
+
+    def test_the_coefficient_of_a_table_and_a_number_in_its_place(self):
+        given = self.forces('key = "ground.friction.coefficient"', "values = [0.3, 0.4]")
+        self.assertIn("slip_speed", (self.folder / "sweep" / "runs" / "0002" / "case.toml").read_text())
+        plain = self.forces('key = "ground.friction"', "values = [0.3, 0.4]")
+        self.assertNotIn("slip_speed", (self.folder / "sweep" / "runs" / "0002" / "case.toml").read_text())
+        for a in (*given, *plain):
+            self.assertEqual(sum(np.array_equal(a, b) for b in (*given, *plain)), 1)
+
+
+class Refused(ProgramTest):
+    def refused(self, command, *given, text=SMALL):
+        done = run(*command, self.case(text), *settings(*given))
+        self.assertEqual(done.returncode, 2, done.stderr + done.stdout)
+        return done.stderr
+
+    def test_steps_and_analyses_that_take_one_coefficient_say_so(self):
+        crush = ("analysis.kind=crush", "analysis.depth=0.005", "analysis.increments=3")
+        for given, said in ((("analysis.kind=steady-rolling", "motion.height=0.296"), "steady rolling takes one"),
+                            (("initial.state=steady-rolling", "motion.height=0.296"), "a start in steady rolling"),
+                            (crush, "a crush takes one coefficient"),
+                            ((*crush, "analysis.solver=latin"), "a crush takes one coefficient"),
+                            (("time.scheme=hati", "solver.hati.ratio=2", "solver.hati.fine.layers=[3]"),
+                             "one coefficient of friction for all contacts")):
+            with self.subTest(said):
+                told = self.refused(["check"], RUBBER, *given)
+                self.assertIn("ground.friction", told)
+                self.assertIn(said, told)
+        self.assertIn("ground.patch", self.refused(["check"], PATCH, *crush))
+
+    def test_a_standing_wheel_and_a_reduced_one_say_so(self):
+        text = WHEEL3D.replace("height = [[0, 0.3], [0.004, 0.296]]", "height = 0.296")
+        done = run("modes", self.case(text), "-o", self.folder / "modes", "--standing", *settings(RUBBER))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("--standing takes one coefficient of friction", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
