@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +11,6 @@ from numpy.typing import NDArray
 from .arrays import LazyArray
 from .errors import Error
 from .files import opened
-
-if TYPE_CHECKING:
-    from .run import Run
 
 Array = NDArray[np.float64]
 
@@ -61,7 +58,7 @@ class Wear:
         return float((self.work * self.tributary).sum())
 
 
-def need_power(run: Run) -> dict[str, Array]:
+def need_power(run: Any) -> dict[str, Array]:
     """The rows of contact.csv; an error where they have no friction_power."""
     run.need_snapshots()
     if run.contact is None:
@@ -74,7 +71,7 @@ def need_power(run: Run) -> dict[str, Array]:
     return rows
 
 
-def wear_of(run: Run, from_time: float | None = None, to_time: float | None = None) -> Wear:
+def wear_of(run: Any, from_time: float | None = None, to_time: float | None = None) -> Wear:
     """Of steady rolling in a turn, from its powers; of steps in time between the snapshots nearest to
     the two times, by default the first and the last, which needs output.friction_work."""
     if not run.is_steady:
@@ -84,7 +81,7 @@ def wear_of(run: Run, from_time: float | None = None, to_time: float | None = No
     return _of_a_turn(run)
 
 
-def _of_a_turn(run: Run) -> Wear:
+def _of_a_turn(run: Any) -> Wear:
     """Every node of a turn does what the nodes of a sector do: at each place it stays for the time
     between two places."""
     rows = need_power(run)
@@ -101,7 +98,7 @@ def _of_a_turn(run: Run) -> Wear:
     return _at_nodes(run, work, 1.0)
 
 
-def _between(run: Run, from_time: float | None, to_time: float | None) -> Wear:
+def _between(run: Any, from_time: float | None, to_time: float | None) -> Wear:
     found = run.friction_work
     first = 0 if from_time is None else run.index(from_time)
     last = run.n_snapshots - 1 if to_time is None else run.index(to_time)
@@ -112,7 +109,7 @@ def _between(run: Run, from_time: float | None, to_time: float | None) -> Wear:
     return _at_nodes(run, np.asarray(found.nodes[last]) - np.asarray(found.nodes[first]), turns)
 
 
-def _at_nodes(run: Run, work: Array, turns: float) -> Wear:
+def _at_nodes(run: Any, work: Array, turns: float) -> Wear:
     assert run.contact is not None
     node = run.mesh.boundary.astype(np.int64)
     at = run.mesh.coordinates[node]
@@ -121,7 +118,7 @@ def _at_nodes(run: Run, work: Array, turns: float) -> Wear:
     return Wear(node, angle, across, work, turns, np.asarray(run.contact.tributary))
 
 
-def read_friction_work(run: Run) -> FrictionWork:
+def read_friction_work(run: Any) -> FrictionWork:
     """An error where the run has none."""
     run.need_snapshots()
     names = run.contact_datasets

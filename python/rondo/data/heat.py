@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .errors import Error
 from .friction import need_power
-
-if TYPE_CHECKING:
-    from .run import Run
 
 Array = NDArray[np.float64]
 SAME = 1e-6  # of the width: nodes at one place across
@@ -86,7 +83,7 @@ def flash_temperature(way: Array, power: Array, speed: float, heat: Heat, reach:
     return heat.share * total / np.sqrt(np.pi * heat.conductivity * heat.density * heat.capacity * speed)
 
 
-def flash_of(run: Run, heat: Heat, time: float | None = None) -> FlashTemperature:
+def flash_of(run: Any, heat: Heat, time: float | None = None) -> FlashTemperature:
     """Of steady rolling: each node of a sector through all its places. Of steps in time: at the snapshot
     nearest to `time`, by default the last with contact, as if what is seen there stayed as it is; nodes
     behind each other follow each other."""
@@ -116,7 +113,7 @@ def flash_of(run: Run, heat: Heat, time: float | None = None) -> FlashTemperatur
     return FlashTemperature(name, np.stack([ahead, right], axis=1), found["friction_power"], rise, speed)
 
 
-def _lines(run: Run, node: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64], float]:
+def _lines(run: Any, node: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64], float]:
     """(m,) number of the line along which each node passes, what the node is called, and the distance of two
     places of a line [m]."""
     mesh, around = run.mesh, 2 * np.pi * run.outer_radius
@@ -133,7 +130,7 @@ def _lines(run: Run, node: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArra
     return lines, node, around * rows / len(mesh.boundary)
 
 
-def _passing(run: Run, time: float) -> tuple[float, float]:
+def _passing(run: Any, time: float) -> tuple[float, float]:
     """Speed at which the tread passes its footprint [m/s], and 1 for a wheel that rolls forth, -1 back."""
     if run.is_steady:
         spin = run.spin
@@ -149,7 +146,7 @@ def _passing(run: Run, time: float) -> tuple[float, float]:
     return speed, 1.0 if spin > 0 else -1.0
 
 
-def _demand_fast(run: Run, ahead: Array, speed: float, heat: Heat) -> None:
+def _demand_fast(run: Any, ahead: Array, speed: float, heat: Heat) -> None:
     half = 0.5 * float(np.ptp(ahead))
     peclet = speed * half / (2 * heat.diffusivity)
     if peclet < LEAST_PECLET:

@@ -11,6 +11,7 @@
 #include "rondo/integrators/bodies/bodies_integrator.hpp"
 #include "rondo/integrators/fused/step_context.hpp"
 #include "rondo/integrators/general/step_traps.hpp"
+#include "rondo/model/friction_work.hpp"
 
 namespace rondo::dynamics {
 namespace {
