@@ -43,15 +43,32 @@ WHEEL3D = SMALL.replace("inner_radius = 0.15\n", "inner_radius = 0.15\nwidth = 0
     "circumferential = 40\n", "circumferential = 40\naxial = 4\n")
 
 
-def way_to_rest(speed, factor=lambda v: np.interp(v, *zip(*TABLE)), coefficient=0.4):
-    """∫ v dv / (g μ(v)) by Gauss's rule over each stretch of the table [m]."""
+def to_rest(speed, weight, factor=lambda v: np.interp(v, *zip(*TABLE)), coefficient=0.4):
+    """∫ weight(v) dv / (g μ(v)) from 0 to a speed, by Gauss's rule over each stretch of the table."""
     x, w = np.polynomial.legendre.leggauss(30)
     knots = sorted({0.0, speed, *(v for v, _ in TABLE if 0.0 < v < speed)})
-    way = 0.0
+    total = 0.0
     for a, b in zip(knots, knots[1:]):
         v = 0.5 * (a + b) + 0.5 * (b - a) * x
-        way += 0.5 * (b - a) * np.sum(w * v / (GRAVITY * coefficient * factor(v)))
-    return way
+        total += 0.5 * (b - a) * np.sum(w * weight(v) / (GRAVITY * coefficient * factor(v)))
+    return total
+
+
+def way_to_rest(speed, **law):
+    return to_rest(speed, lambda v: v, **law)  # m
+
+
+def time_to_rest(speed):
+    return to_rest(speed, np.ones_like)  # s
+
+
+def speed_before(way):
+    """The speed that leaves this way, by bisection [m/s]."""
+    low, high = 0.0, 3.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if way_to_rest(middle) < way else (low, middle)
+    return 0.5 * (low + high)
 
 
 class Block(RunTest):
@@ -78,7 +95,14 @@ class Block(RunTest):
         self.assertLess(abs(coarse / exact - 1.0), 1e-6)
         self.assertLess(abs((2.0 * fine - coarse) / exact - 1.0), 1e-6)
         self.assertGreater(abs(coarse - fine), 1e-7)  # it is there
-        self.assertGreater(abs(way_to_rest(2.0, lambda v: np.ones_like(v)) / exact - 1.0), 0.02)
+        # When it rests: a row on the way, and the time that the table gives for the way left.
+        h = history(self.out)
+        row = np.searchsorted(h["time_s"], 0.3)
+        rests = h["time_s"][row] + time_to_rest(speed_before(fine - h["center_x_m"][row]))
+        self.assertLess(abs(rests / time_to_rest(2.0) - 1.0), 1e-6)
+        moving = h["sticking_nodes"] < h["contact_nodes"]
+        self.assertLess(abs(h["time_s"][moving][-1] - time_to_rest(2.0)), 2e-3)  # the rows are 1 ms apart
+        self.assertGreater(abs(way_to_rest(2.0, factor=np.ones_like) / exact - 1.0), 0.02)
 
     def test_it_slides_over_a_patch(self):
         """Node by node: each does the work of its share of the weight, and goes all the length of the ice. The shares

@@ -33,6 +33,8 @@ def holders(node, path=()):
     for name, inner in node["properties"].items():
         if "properties" in inner:
             yield from holders(inner, (*path, name))
+            if inner["type"] == ["number", "object"]:  # a number, or a table in its place
+                yield (*path, name), {**inner, "type": "number"}
         elif "properties" in inner.get("items", {}):
             yield from holders(inner["items"], (*path, name, 0))
         else:
@@ -94,6 +96,8 @@ def placed(document, path, value):
         if isinstance(part, int):
             here = here[part]
         else:
+            if isinstance(here.get(part), float):  # the number in the place of a table
+                here[part] = {"coefficient": here[part]}
             here = here.setdefault(part, [{}] if after == 0 else {})
     here[path[-1]] = value
     return document

@@ -108,10 +108,12 @@ scheme = ""
             return [item["label"].strip('"') for item in told["found"][k]["completions"]]
 
         self.assertEqual(set(labels(0)), {"profile", "road", "road_start", "road_offset", "road_border",
-                                          "fillet", "restitution", "impact"})
+                                          "fillet", "restitution", "impact", "patch", "friction.coefficient",
+                                          "friction.slip_speed", "friction.pressure_exponent",
+                                          "friction.pressure_reference"})
         self.assertEqual(labels(1)[:3], ["symplectic", "as-printed", "hati"])
         self.assertIn("Coulomb's coefficient of friction μ", told["found"][2]["hover"])
-        self.assertIn("Allowed: 0 to 100. Default: 0.0.", told["found"][2]["hover"])
+        self.assertIn("Allowed: 0 to 100; or a table [ground.friction]. Default: 0.0.", told["found"][2]["hover"])
         self.assertLess({"angular_velocity", "speed", "height", "camber"}, set(labels(3)))
         speed = next(i for i in told["found"][3]["completions"] if i["label"] == "speed")
         self.assertIn("Unit: m/s", speed["documentation"]["value"])

@@ -74,6 +74,20 @@ def test_the_controller_keeps_the_slip(monkeypatch):
     assert 0.985 * 0.6 < friction < 0.6
 
 
+def test_the_controller_lets_go_on_ice(monkeypatch):
+    """The friction jumps from 0.6 to 0.12 at 0.15 s and back at 0.25 s, which nothing tells it."""
+    example = module_of("abs_controller", monkeypatch)
+    slips = {}
+    for controller in (example.locking, example.anti_lock):
+        with rondo.Simulation(example.CASES / "wheel-mu-jump.toml", {"rim.brake": 0.0}) as simulation:
+            rows = example.braked(simulation, controller, 3.0e4, settled=0.08)
+        ice = (rows["time_s"] > 0.17) & (rows["time_s"] < 0.24)
+        assert rows["force_x"][ice].mean() == pytest.approx(-0.12 * rows["force_y"][ice].mean(), rel=2e-3)
+        slips[controller.__name__] = rows["slip"][ice].mean(), rows["slip"][rows["time_s"] > 0.3].max()
+    assert min(slips["locking"]) > 0.99
+    assert slips["anti_lock"][0] < 0.2 and slips["anti_lock"][1] < 0.15
+
+
 def test_a_locked_wheel_has_no_side_force(tmp_path):
     (locked, anti_lock), _ = made("abs_corner", tmp_path)
     assert locked["slip"] == 1.0
