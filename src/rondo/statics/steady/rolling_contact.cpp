@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "rondo/core/process_wide.hpp"
-#include "rondo/statics/steady/rolling_law.hpp"
+#include "rondo/statics/steady/law/rolling_law.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -38,6 +38,8 @@ void fill(const RollingProblem<D>& problem, const RollingState& state, RollingSo
   s.place = places(problem, p.force);
   s.forces = forces_of(problem, p);
   s.slopes = state.slopes;
+  s.pairs = state.pairs;
+  s.friction = state.friction;
 }
 
 /// Load, traction and torque are those asked for, of the size of what bears them.
@@ -78,9 +80,29 @@ RollingSolution nothing(const RollingProblem<D>& problem, const RollingPoint& po
   return s;
 }
 
-/// From a state of the window's pairs on, or of none.
+/// What is solved, to start from.
+template <int D>
+RollingState state_of(const RollingSolution& s, const RollingDrive& drive) {
+  RollingState state;
+  state.point = {s.force, drive.load ? s.height : drive.height,
+                 drive.traction || drive.torque ? s.speed : drive.speed};
+  if (D == 2) state.statuses = s.status;
+  state.residual = s.residual;
+  state.pairs = s.pairs;
+  return state;
+}
+
+/// From a state of the window's pairs on, or of none. With a law of friction a state that has no
+/// coefficients grows with the constant one first.
 template <int D>
 RollingSolution grow(RollingWindow<D>& window, const RollingDrive& drive, RollingState state) {
+  if (drive.law && state.pairs.empty()) {
+    RollingDrive constant = drive;
+    constant.law = nullptr;
+    const RollingSolution found = grow(window, constant, std::move(state));
+    if (found.end != RollingEnd::solved) return found;
+    state = state_of<D>(found, drive);
+  }
   const OneBlasThread one_thread;
   const double radius = window.lowest();
   RollingSolution s;
@@ -110,7 +132,7 @@ RollingSolution grow(RollingWindow<D>& window, const RollingDrive& drive, Rollin
     fill(window.problem(), state, s);
     if (state.solved() && brings(drive, s))
       s.end = RollingEnd::solved;
-    else if (slides(drive, state))
+    else if (state.friction.solved && slides(drive, state))
       s.end = RollingEnd::sliding;
     return s;
   }
@@ -134,10 +156,8 @@ template <int D>
 RollingSolution solve_rolling_from(RollingWindow<D>& window, const RollingDrive& drive,
                                    const RollingSolution& near) {
   if (near.end != RollingEnd::solved) return solve_rolling(window, drive);
-  RollingState state;
-  state.point = {near.force, drive.load ? near.height : drive.height,
-                 drive.traction || drive.torque ? near.speed : drive.speed};
-  state.residual = near.residual;
+  RollingState state = state_of<D>(near, drive);
+  if (state.pairs.empty()) state.statuses.clear();
   return grow(window, drive, std::move(state));
 }
 

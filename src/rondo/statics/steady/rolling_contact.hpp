@@ -30,16 +30,22 @@ struct RollingSolution {
   RollingEffort effort{};
   double residual = 0.0;  ///< of the law, relative (6.4d)                                   [-]
   RollingSlopes slopes{};
+  /// (pairs) With a law of friction: what the coefficient of each pair is over the drive's; else
+  /// empty.
+  std::vector<PairFriction> pairs{};
+  FrictionEffort friction{};
 };
 
-/// The window grows by the pairs that are missing.
+/// The window grows by the pairs that are missing. With a law of friction the state is reached from
+/// that of the constant coefficient (rolling_friction.hpp).
 /// @param from statuses to start from, of the window's first pairs, in the plane
 template <int D>
 [[nodiscard]] RollingSolution solve_rolling(RollingWindow<D>& window, const RollingDrive& drive,
                                             const RollingStatuses& from = {});
 
 /// The same, in space, from a solution of the same window under other forces: what touched there is
-/// near what touches now.
+/// near what touches now. With a law of friction, in the plane as well, its coefficients are as
+/// near.
 template <int D>
 [[nodiscard]] RollingSolution solve_rolling_from(RollingWindow<D>& window,
                                                  const RollingDrive& drive,
@@ -49,7 +55,7 @@ template <int D>
 /// window's rows alone: independent of how the forces were found.
 template <int D>
 [[nodiscard]] double rolling_residual(const RollingWindow<D>& window, const RollingSolution& s,
-                                      double friction) {
+                                      const PairCoefficients& friction) {
   return rolling_residual(window.problem(), {s.force, s.height, s.speed}, s.path, friction);
 }
 

@@ -88,10 +88,23 @@ Eigen::VectorXd gathered(const RollingGroups<D>& g, const Eigen::VectorXd& force
   return sums;
 }
 
+template <int D>
+std::vector<PairFriction> gathered(const RollingGroups<D>& g,
+                                   const std::vector<PairFriction>& pairs) {
+  if (pairs.empty()) return {};
+  std::vector<PairFriction> means(g.problem.pairs.size(), PairFriction{.factor = 0.0});
+  for (std::size_t p = 0; p < g.of.size(); ++p)
+    means[g.of[p]].factor +=
+        g.share[static_cast<Index>(g.of[p])] * (p < pairs.size() ? pairs[p].factor : 1.0);
+  return means;
+}
+
 template RollingGroups<2> grouped(const RollingProblem<2>&);
 template RollingGroups<3> grouped(const RollingProblem<3>&);
 template Eigen::VectorXd spread(const RollingGroups<2>&, const Eigen::VectorXd&);
 template Eigen::VectorXd spread(const RollingGroups<3>&, const Eigen::VectorXd&);
 template Eigen::VectorXd gathered(const RollingGroups<3>&, const Eigen::VectorXd&);
+template std::vector<PairFriction> gathered(const RollingGroups<2>&,
+                                            const std::vector<PairFriction>&);
 
 }  // namespace rondo::statics

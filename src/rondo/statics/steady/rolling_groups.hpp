@@ -29,5 +29,9 @@ template <int D>
 template <int D>
 [[nodiscard]] Eigen::VectorXd gathered(const RollingGroups<D>& groups,
                                        const Eigen::VectorXd& force);
+/// The mean factor of each group; empty: there are no factors of pairs.
+template <int D>
+[[nodiscard]] std::vector<PairFriction> gathered(const RollingGroups<D>& groups,
+                                                 const std::vector<PairFriction>& pairs);
 
 }  // namespace rondo::statics

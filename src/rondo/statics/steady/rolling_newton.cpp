@@ -8,7 +8,8 @@
 
 #include "rondo/contact/cone.hpp"
 #include "rondo/contact/residual.hpp"
-#include "rondo/statics/steady/rolling_law.hpp"
+#include "rondo/core/index.hpp"
+#include "rondo/statics/steady/law/rolling_law.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -117,13 +118,13 @@ void find_drive(const RollingProblem<D>& problem, const RollingDrive& drive, Rol
 
 template <int D>
 double residual_of(const RollingProblem<D>& problem, const RollingPoint& p,
-                   const Eigen::VectorXd& moved, double friction) {
+                   const Eigen::VectorXd& moved, const PairCoefficients& friction) {
   double largest = 0.0, force = 0.0;
   for (Index row = 0; row < p.force.size(); row += D) {
     const double stiffness = 1.0 / std::abs(problem.matrix(row, row));
     const auto r = vec_of(NodeVector<D>(p.force.segment<D>(row)));
     const auto v = vec_of(NodeVector<D>(moved.segment<D>(row)));
-    const double residual = contact::law_residual(r, v, 0.0, friction, stiffness);
+    const double residual = contact::law_residual(r, v, 0.0, friction[at(row / D)], stiffness);
     if (!std::isfinite(residual)) return residual;
     largest = std::max(largest, residual);
     force = std::max(force, norm(r));
@@ -152,12 +153,12 @@ RollingState without_forces(const RollingProblem<D>& problem, const RollingDrive
 template <int D>
 void look(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& s) {
   const Eigen::VectorXd moved = gaps_and_ways(problem, s.point, drive.path());
-  s.statuses = statuses_of(problem, s.point, moved, drive.friction);
+  s.statuses = statuses_of(problem, s.point, moved, drive.coefficients());
 }
 
 template <int D>
 double rolling_residual(const RollingProblem<D>& problem, const RollingPoint& point,
-                        const RollingPath& path, double friction) {
+                        const RollingPath& path, const PairCoefficients& friction) {
   return residual_of(problem, point, gaps_and_ways(problem, point, path), friction);
 }
 
@@ -166,6 +167,10 @@ double rolling_residual(const RollingProblem<D>& problem, const RollingPoint& po
 /// left it: where all slides, its statuses tell.
 template <int D>
 void solve_rolling(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& s) {
+  if (drive.law) {
+    solve_by_law(problem, drive, s);
+    return;
+  }
   const RollingPoint first = s.point;
   s.effort.most = most_work(problem, s.effort);
   attempt(problem, drive, s);
@@ -180,9 +185,9 @@ void solve_rolling(const RollingProblem<D>& problem, const RollingDrive& drive, 
 }
 
 template double residual_of(const RollingProblem<2>&, const RollingPoint&, const Eigen::VectorXd&,
-                            double);
+                            const PairCoefficients&);
 template double residual_of(const RollingProblem<3>&, const RollingPoint&, const Eigen::VectorXd&,
-                            double);
+                            const PairCoefficients&);
 template RollingState without_forces(const RollingProblem<2>&, const RollingDrive&,
                                      const RollingPoint&);
 template RollingState without_forces(const RollingProblem<3>&, const RollingDrive&,
@@ -190,9 +195,9 @@ template RollingState without_forces(const RollingProblem<3>&, const RollingDriv
 template void look(const RollingProblem<2>&, const RollingDrive&, RollingState&);
 template void look(const RollingProblem<3>&, const RollingDrive&, RollingState&);
 template double rolling_residual(const RollingProblem<2>&, const RollingPoint&, const RollingPath&,
-                                 double);
+                                 const PairCoefficients&);
 template double rolling_residual(const RollingProblem<3>&, const RollingPoint&, const RollingPath&,
-                                 double);
+                                 const PairCoefficients&);
 template void solve_rolling(const RollingProblem<2>&, const RollingDrive&, RollingState&);
 template void solve_rolling(const RollingProblem<3>&, const RollingDrive&, RollingState&);
 

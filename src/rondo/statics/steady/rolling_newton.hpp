@@ -7,6 +7,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <limits>
+#include <vector>
 
 #include "rondo/statics/steady/rolling_system.hpp"
 
@@ -28,6 +29,17 @@ struct RollingEffort {
   [[nodiscard]] bool spent() const noexcept { return work >= most; }
 };
 
+/// How coefficients were found that depend on slip speed and pressure (rolling_friction.hpp).
+struct FrictionEffort {
+  int steps = 0;         ///< from the constant coefficient to the law; 0: near a state that had it
+  int restarts = 0;      ///< with half a step, where one did not end
+  int problems = 0;      ///< of contact, with given coefficients
+  double share = 1.0;    ///< of the departure from the constant coefficient that was reached
+  bool solved = true;    ///< false: the coefficients of the next step of the share did not settle
+  double change = 0.0;   ///< of a coefficient in the last iteration, the largest               [-]
+  std::size_t pair = 0;  ///< whose coefficient that is
+};
+
 struct RollingState {
   RollingPoint point{};
   RollingStatuses statuses{};  ///< (pairs)
@@ -36,6 +48,8 @@ struct RollingState {
   RollingSlopes slopes{};  ///< of what is solved
   bool touches = true;     ///< false: nothing is closed
   RollingEffort effort{};
+  std::vector<PairFriction> pairs{};  ///< (pairs) by the law of friction; empty: factors of 1
+  FrictionEffort friction{};
 
   [[nodiscard]] bool solved() const noexcept {
     return touches && residual <= rolling_residual_bound;
@@ -45,11 +59,11 @@ struct RollingState {
 /// Largest law residual over the largest force, each pair's own scaled by its compliance.
 template <int D>
 [[nodiscard]] double rolling_residual(const RollingProblem<D>& problem, const RollingPoint& point,
-                                      const RollingPath& path, double friction);
+                                      const RollingPath& path, const PairCoefficients& friction);
 
 /// From the height, the speed and the forces of the state on, in the plane from its statuses if it
 /// has some. In space the forces of a state that is solved, of fewer pairs or at another height,
-/// are near the solution.
+/// are near the solution. With a law of friction the coefficients of the state are, if it has some.
 template <int D>
 void solve_rolling(const RollingProblem<D>& problem, const RollingDrive& drive,
                    RollingState& state);

@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "rondo/core/complex.hpp"
@@ -51,6 +52,36 @@ struct RollingPath {
   double turn_slip = 0.0;   ///< φ: the body turns by φ V about n; > 0 to the left, to -t2 [1/m]
 };
 
+struct RollingFriction;  // rolling_friction.hpp
+
+/// How much friction a pair has, beside the μ of all.
+struct PairFriction {
+  double factor = 1.0;  ///< the coefficient of the pair over μ, >= 0                          [-]
+  /// By how much the bound of its shear grows, beside factor μ, with its normal force and with the
+  /// length of its way, because the coefficient depends on pressure and slip speed: of a
+  /// linearised law; else 0.
+  double by_normal = 0.0;  ///< [-]
+  double by_way = 0.0;     ///< [N/m]
+
+  bool operator==(const PairFriction&) const noexcept = default;
+};
+
+/// The coefficients of all pairs. @param pairs must outlive it; those beyond its end have factor 1
+class PairCoefficients {
+ public:
+  PairCoefficients(double all) noexcept : all_(all) {}  // NOLINT(*-explicit-*): a constant is one
+  PairCoefficients(double all, std::span<const PairFriction> pairs) noexcept
+      : all_(all), pairs_(pairs) {}
+
+  [[nodiscard]] double operator[](std::size_t pair) const noexcept {
+    return pair < pairs_.size() ? all_ * pairs_[pair].factor : all_;
+  }
+
+ private:
+  double all_;
+  std::span<const PairFriction> pairs_{};
+};
+
 /// One of height and load is given, and one of speed, traction and torque.
 struct RollingDrive {
   double height = 0.0;      ///< h, of the center above the ground; without a load             [m]
@@ -61,7 +92,16 @@ struct RollingDrive {
   std::optional<double> load{};      ///< force of the ground on the body along n, > 0           [N]
   std::optional<double> traction{};  ///< force of the ground on the body along t1               [N]
   std::optional<double> torque{};    ///< of ground and weight, counter-clockwise              [N m]
+  /// Null: the coefficients are those of `pairs`. Else they follow from slip speed and pressure, μ
+  /// times the factors of the law, and `pairs` is not used. It must outlive the drive.
+  const RollingFriction* law = nullptr;
+  std::vector<PairFriction> pairs{};  ///< of the first pairs; those beyond have factor 1
 
+  [[nodiscard]] PairCoefficients coefficients() const noexcept { return {friction, pairs}; }
+  /// The friction of one pair, over μ.
+  [[nodiscard]] PairFriction of_pair(std::size_t pair) const noexcept {
+    return pair < pairs.size() ? pairs[pair] : PairFriction{};
+  }
   /// Height and speed are given.
   [[nodiscard]] bool is_fixed() const noexcept { return !load && !traction && !torque; }
   [[nodiscard]] RollingPath path() const noexcept { return {slip_angle, turn_slip}; }

@@ -3,6 +3,7 @@
 
 #include <lapacke.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -34,7 +35,7 @@ RollingStiffness stiffness_of(const RollingProblem<D>& problem) {
 
 template <int D>
 RollingStatuses statuses_of(const RollingProblem<D>& problem, const RollingPoint& p,
-                            const VectorXd& moved, double friction) {
+                            const VectorXd& moved, const PairCoefficients& friction) {
   const RollingStiffness stiffness = stiffness_of(problem);
   RollingStatuses statuses(static_cast<std::size_t>(problem.n_pairs()));
   for (std::size_t j = 0; j < statuses.size(); ++j) {
@@ -44,13 +45,14 @@ RollingStatuses statuses_of(const RollingProblem<D>& problem, const RollingPoint
     if (!(normal > 0.0)) continue;
     const NodeVector<D - 1> across =
         p.force.segment<D - 1>(row + 1) - stiffness.across * moved.segment<D - 1>(row + 1);
-    const double length = D == 2 ? std::abs(across[0]) : across.norm(), bound = friction * normal;
-    const bool sticks = friction > 0.0 && length <= bound;
+    const double coefficient = friction[j], bound = coefficient * normal,
+                 length = D == 2 ? std::abs(across[0]) : across.norm();
+    const bool sticks = coefficient > 0.0 && length <= bound;
     s.status = sticks ? Status::stick : Status::slip;
     if (sticks) continue;
     s.direction =
-        friction > 0.0 ? Vec2{across[0], D == 2 ? 0.0 : across[D - 2]} / length : Vec2{1.0, 0.0};
-    s.share = friction > 0.0 ? bound / length : 0.0;
+        coefficient > 0.0 ? Vec2{across[0], D == 2 ? 0.0 : across[D - 2]} / length : Vec2{1.0, 0.0};
+    s.share = coefficient > 0.0 ? bound / length : 0.0;
   }
   return statuses;
 }
@@ -87,6 +89,15 @@ NodeMatrix<D - 1> RollingSystem<D>::turning(Index pair) const noexcept {
   return statuses_[at(pair)].share * (NodeMatrix<D - 1>::Identity() - e * e.transpose());
 }
 
+/// How the row of a sliding pair depends on its way, over the row of a sticking one: by the turn of
+/// its direction, and by the slip speed that its coefficient depends on.
+template <int D>
+NodeMatrix<D - 1> RollingSystem<D>::by_way(const Pair& p) const noexcept {
+  if (p.friction.by_way == 0.0) return turning(p.pair);
+  const NodeVector<D - 1> e = direction(p.pair);
+  return turning(p.pair) + scale_ * p.friction.by_way * e * e.transpose();
+}
+
 /// The shear of a pair that slides follows from its normal force in the plane, where its direction
 /// has a sign alone, and where there is no friction.
 template <int D>
@@ -95,9 +106,12 @@ void RollingSystem<D>::number() {
     const Status status = statuses_[at(j)].status;
     if (status == Status::open) continue;
     const bool sticks = status == Status::stick;
-    const bool follows = drive_.friction == 0.0 || (D == 2 && !sticks);
-    const double edge = follows ? drive_.friction * direction(j)[0] : 0.0;
-    closed_.push_back({j, n_forces_, follows ? 1 : D, sticks, edge});
+    const PairFriction friction = drive_.of_pair(at(j));
+    const double coefficient = drive_.friction * friction.factor;
+    const bool is_linearised = friction.by_normal != 0.0 || friction.by_way != 0.0;
+    const bool follows = coefficient == 0.0 || (D == 2 && !sticks && !is_linearised);
+    const double edge = follows ? coefficient * direction(j)[0] : 0.0;
+    closed_.push_back({j, n_forces_, follows ? 1 : D, sticks, edge, friction});
     n_forces_ += closed_.back().unknowns;
   }
 }
@@ -109,14 +123,12 @@ void RollingSystem<D>::reduce(const Moved& moved, Eigen::Ref<VectorXd> rows) con
     rows[p.at] = moved.coeff(D * p.pair);
     if (p.unknowns == 1) continue;
     const NodeVector<D - 1> way = moved.template segment<D - 1>(D * p.pair + 1);
-    rows.template segment<D - 1>(p.at + 1) =
-        p.sticks ? way : NodeVector<D - 1>(turning(p.pair) * way);
+    rows.template segment<D - 1>(p.at + 1) = p.sticks ? way : NodeVector<D - 1>(by_way(p) * way);
   }
 }
 
-/// Row of a sliding pair whose direction turns: r_t - μ r_n e - C (r_t - w/c) = 0, in ways; C q_t
-/// is 0. With a turn slip the ways by speed times displacement are linearised: what forces add to
-/// them is in the matrix, at the speed so far.
+/// With a turn slip the ways by speed times displacement are linearised: what forces add to them is
+/// in the matrix, at the speed so far.
 template <int D>
 void RollingSystem<D>::fill(const RollingPoint& around) {
   const double turn = drive_.turn_slip * around.speed * problem_.time;
@@ -138,12 +150,38 @@ void RollingSystem<D>::fill(const RollingPoint& around) {
     right += turn * yawed<D>(displaced).reshaped();
   }
   reduce(right, right_);
+  add_edges();
+  add_linearised(around);
+}
+
+/// Row of a sliding pair whose direction turns: r_t - μ r_n e - C (r_t - w/c) = 0, in ways; C q_t
+/// is 0.
+template <int D>
+void RollingSystem<D>::add_edges() {
   for (const Pair& p : closed_) {
     if (p.sticks || p.unknowns == 1) continue;
-    matrix_.template block<D - 1, 1>(p.at + 1, p.at) -=
-        scale_ * drive_.friction * direction(p.pair);
+    const double edge = drive_.friction * p.friction.factor + p.friction.by_normal;
+    matrix_.template block<D - 1, 1>(p.at + 1, p.at) -= scale_ * edge * direction(p.pair);
     matrix_.template block<D - 1, D - 1>(p.at + 1, p.at + 1) +=
         scale_ * (NodeMatrix<D - 1>::Identity() - turning(p.pair));
+  }
+}
+
+/// A sliding pair has |r_t| = μ r_n + by_normal (r_n - r_n') + by_way (|w| - |w'|) about its state
+/// r', w', and |w| = -e·w: what is of that state is on the right.
+template <int D>
+void RollingSystem<D>::add_linearised(const RollingPoint& around) {
+  const bool any = std::ranges::any_of(closed_, [](const Pair& p) {
+    return p.unknowns > 1 && (p.friction.by_normal != 0.0 || p.friction.by_way != 0.0);
+  });
+  if (!any) return;
+  const VectorXd moved = gaps_and_ways(problem_, around, drive_.path());
+  for (const Pair& p : closed_) {
+    if (p.sticks || p.unknowns == 1) continue;
+    const NodeVector<D - 1> e = direction(p.pair), way = moved.segment<D - 1>(D * p.pair + 1);
+    const double known =
+        p.friction.by_way * e.dot(way) - p.friction.by_normal * around.force[D * p.pair];
+    right_.template segment<D - 1>(p.at + 1) += scale_ * known * e;
   }
 }
 
@@ -269,21 +307,20 @@ RollingPoint RollingSystem<D>::solve() const {
 template <int D>
 RollingPoint RollingSystem<D>::by_friction(const RollingPoint& around,
                                            const TorqueChange& torque) const {
+  const auto shear = [&](const Pair& p) -> NodeVector<D - 1> {
+    return p.friction.factor * around.force[D * p.pair] * direction(p.pair);
+  };
   VectorXd slipping = VectorXd::Zero(problem_.size());  // forces that no unknown stands for
   VectorXd right = VectorXd::Zero(right_.size());
-  for (const Pair& p : closed_) {
-    if (p.sticks) continue;
-    const NodeVector<D - 1> shear = around.force[D * p.pair] * direction(p.pair);
-    if (p.unknowns == 1)
-      slipping.template segment<D - 1>(D * p.pair + 1) = shear;
-    else
-      right.template segment<D - 1>(p.at + 1) = scale_ * shear;
-  }
+  for (const Pair& p : closed_)
+    if (!p.sticks && p.unknowns == 1) slipping.template segment<D - 1>(D * p.pair + 1) = shear(p);
   if constexpr (D == 2) {
     reduce(VectorXd(-(problem_.matrix * slipping)), right);
     if (drive_.traction) right[of_speed()] = -slipping.sum();
     if (drive_.torque) right[of_speed()] = -torque.row.dot(slipping);
   }
+  for (const Pair& p : closed_)
+    if (!p.sticks && p.unknowns > 1) right.template segment<D - 1>(p.at + 1) += scale_ * shear(p);
   RollingPoint change = point_of(solved(right), 0.0, 0.0);
   change.force += slipping;
   return change;
@@ -324,9 +361,9 @@ RollingSlopes RollingSystem<D>::slopes(const RollingPoint& around) const {
 template RollingStiffness stiffness_of(const RollingProblem<2>&);
 template RollingStiffness stiffness_of(const RollingProblem<3>&);
 template RollingStatuses statuses_of(const RollingProblem<2>&, const RollingPoint&, const VectorXd&,
-                                     double);
+                                     const PairCoefficients&);
 template RollingStatuses statuses_of(const RollingProblem<3>&, const RollingPoint&, const VectorXd&,
-                                     double);
+                                     const PairCoefficients&);
 template class RollingSystem<2>;
 template class RollingSystem<3>;
 

@@ -2,8 +2,9 @@
 /// @file  The linear system of steady rolling for given statuses: gaps of closed pairs and ways of
 /// sticking ones are 0; forces of sliding ones lie on the edge of the cone. In the plane their
 /// shear follows from the normal force (docs/theory.md, 11.3); in space the direction of sliding is
-/// an unknown, and is linearised (docs/wheel3d.md). Height and speed are unknowns where load,
-/// traction or torque are given instead.
+/// an unknown, and is linearised (docs/wheel3d.md). Where the coefficient of a pair is linearised
+/// too (PairFriction), its shear is an unknown in the plane as well. Height and speed are unknowns
+/// where load, traction or torque are given instead.
 #pragma once
 #include <Eigen/Core>
 #include <vector>
@@ -38,7 +39,7 @@ template <int D>
 template <int D>
 [[nodiscard]] RollingStatuses statuses_of(const RollingProblem<D>& problem,
                                           const RollingPoint& point, const Eigen::VectorXd& moved,
-                                          double friction);
+                                          const PairCoefficients& friction);
 
 /// Derivatives of forces, height and speed by one of what is given.
 struct RollingSlope {
@@ -55,8 +56,8 @@ struct RollingSlopes {
 template <int D>
 class RollingSystem {
  public:
-  /// @param around what is not linear is taken at: the torque, and with a turn slip the ways, by
-  /// speed times places. All must outlive it.
+  /// @param around what is not linear is taken at: the torque, with a turn slip the ways, by speed
+  /// times places, and coefficients that depend on slip and pressure. All must outlive it.
   RollingSystem(const RollingProblem<D>& problem, const RollingDrive& drive,
                 const RollingStatuses& statuses, const RollingPoint& around);
 
@@ -73,6 +74,7 @@ class RollingSystem {
     Eigen::Index unknowns;  ///< 1: its shear follows from the normal force
     bool sticks;
     double edge;  ///< that shear over the normal force, along t1: 0 in space, where it is 0
+    PairFriction friction;
   };
   [[nodiscard]] bool has_height() const noexcept { return drive_.load.has_value(); }
   [[nodiscard]] bool has_speed() const noexcept { return drive_.traction || drive_.torque; }
@@ -82,8 +84,11 @@ class RollingSystem {
   }
   [[nodiscard]] NodeVector<D - 1> direction(Eigen::Index pair) const noexcept;
   [[nodiscard]] NodeMatrix<D - 1> turning(Eigen::Index pair) const noexcept;
+  [[nodiscard]] NodeMatrix<D - 1> by_way(const Pair& pair) const noexcept;
   void number();
   void fill(const RollingPoint& around);
+  void add_edges();
+  void add_linearised(const RollingPoint& around);
   void add_border(const RollingPoint& around);
   void add_sum(Eigen::Index row, const Eigen::VectorXd& by_force);
   void factorise();

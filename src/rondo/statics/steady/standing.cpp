@@ -9,7 +9,7 @@
 #include "rondo/core/index.hpp"
 #include "rondo/core/keep_larger.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
-#include "rondo/statics/steady/rolling_law.hpp"
+#include "rondo/statics/steady/law/rolling_law.hpp"
 #include "rondo/statics/steady/rolling_power.hpp"
 
 namespace rondo::statics {

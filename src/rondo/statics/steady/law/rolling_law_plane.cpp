@@ -4,9 +4,10 @@
 #include <set>
 #include <utility>
 
+#include "rondo/core/index.hpp"
 #include "rondo/statics/condensed_contact.hpp"
+#include "rondo/statics/steady/law/rolling_law.hpp"
 #include "rondo/statics/steady/rolling_groups.hpp"
-#include "rondo/statics/steady/rolling_law.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -29,20 +30,34 @@ std::vector<int> key_of(const RollingStatuses& statuses) {
   return key;
 }
 
+/// Makes the form (6.4f) without friction one with a coefficient for each pair.
+void lay_friction(const PairCoefficients& friction, Lcp& lcp) {
+  const Index m = lcp.matrix.rows() / 3;
+  for (Index j = 0; j < m; ++j) {
+    const double coefficient = friction[at(j)];
+    lcp.matrix.col(j).head(2 * m) -= coefficient * lcp.matrix.col(m + j).head(2 * m);
+    lcp.matrix(2 * m + j, j) = 2.0 * coefficient;
+    lcp.cover[m + j] = 1.0 / std::max(1.0, coefficient);
+  }
+}
+
 Lcp complementary(const PlaneProblem& w, const RollingDrive& d) {
   VectorXd free = w.base;
   free(Eigen::seqN(0, w.n_pairs(), 2)).array() += d.height;
   free(Eigen::seqN(1, w.n_pairs(), 2)).array() += d.speed * w.time;
-  return make_complementary({w.matrix, std::move(free), d.friction}).lcp;
+  if (d.pairs.empty()) return make_complementary({w.matrix, std::move(free), d.friction}).lcp;
+  Lcp lcp = make_complementary({w.matrix, std::move(free), 0.0}).lcp;
+  lay_friction(d.coefficients(), lcp);
+  return lcp;
 }
 
-RollingStatuses pivoted_statuses(const LcpSolution& lcp, double friction) {
+RollingStatuses pivoted_statuses(const LcpSolution& lcp, const PairCoefficients& friction) {
   const std::size_t m = lcp.basic.size() / 3;
   RollingStatuses statuses(m);
   for (std::size_t j = 0; j < m; ++j) {
     const bool off_lower = lcp.basic[m + j] != 0, off_upper = lcp.basic[2 * m + j] == 0;
     if (lcp.basic[j] == 0 || (!off_lower && !off_upper)) continue;
-    if (off_lower && off_upper && friction > 0.0)
+    if (off_lower && off_upper && friction[j] > 0.0)
       statuses[j].status = Status::stick;
     else
       statuses[j] = {Status::slip, {off_lower ? 1.0 : -1.0, 0.0}};
@@ -62,14 +77,14 @@ void pivot(const PlaneProblem& problem, const RollingDrive& drive, RollingState&
   s.effort.work += a_pivot * end.pivots;
   if (end.end != LemkeEnd::solved) return;
   RollingState other = s;
-  other.statuses = pivoted_statuses(z, drive.friction);
+  other.statuses = pivoted_statuses(z, drive.coefficients());
   other.touches = !all_open(other.statuses);
   if (other.touches) {
     const RollingSystem<2> system(problem, drive, other.statuses, s.point);
     other.point = system.solve();
     other.slopes = system.slopes(other.point);
   }
-  other.residual = rolling_residual(problem, other.point, {}, drive.friction);
+  other.residual = rolling_residual(problem, other.point, {}, drive.coefficients());
   if (other.residual < s.residual || !std::isfinite(s.residual)) s = std::move(other);
 }
 
@@ -106,8 +121,10 @@ RollingState coarse_start(const PlaneProblem& problem, const RollingDrive& drive
   if (problem.pairs.size() > few_pairs) {
     const RollingGroups<2> groups = grouped(problem);
     if (2 * groups.problem.pairs.size() <= problem.pairs.size()) {
-      RollingState start = coarse_start(groups.problem, drive, point);
-      newton(groups.problem, drive, start);
+      RollingDrive of_groups = drive;
+      of_groups.pairs = gathered(groups, drive.pairs);
+      RollingState start = coarse_start(groups.problem, of_groups, point);
+      newton(groups.problem, of_groups, start);
       if (start.touches && start.point.force.allFinite()) return spread_state(groups, start);
     }
   }
@@ -140,9 +157,9 @@ void newton(const RollingProblem<2>& problem, const RollingDrive& drive, Rolling
     s.effort.work += system.work();
     s.point = system.solve();
     const VectorXd moved = gaps_and_ways(problem, s.point, {});
-    s.residual = residual_of(problem, s.point, moved, drive.friction);
+    s.residual = residual_of(problem, s.point, moved, drive.coefficients());
     if (!s.point.force.allFinite()) return;
-    RollingStatuses next = statuses_of(problem, s.point, moved, drive.friction);
+    RollingStatuses next = statuses_of(problem, s.point, moved, drive.coefficients());
     const bool settled = next == s.statuses;
     const bool done = settled && (!drive.torque || is_near(s.point, before));
     const bool cycles = !settled && !seen.insert(key_of(next)).second;

@@ -23,6 +23,10 @@ inline constexpr int most_newton_steps = 60;
 template <int D>
 void rescue(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& state);
 
+/// With coefficients that follow from the state (rolling_friction.hpp). @pre the drive has a law
+template <int D>
+void solve_by_law(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& state);
+
 /// Statuses by the law at the state's point.
 template <int D>
 void look(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& state);
@@ -33,7 +37,7 @@ template <int D>
 /// @param moved gaps and ways of the point
 template <int D>
 [[nodiscard]] double residual_of(const RollingProblem<D>& problem, const RollingPoint& point,
-                                 const Eigen::VectorXd& moved, double friction);
+                                 const Eigen::VectorXd& moved, const PairCoefficients& friction);
 [[nodiscard]] bool all_open(const RollingStatuses& statuses);
 /// The torque, which is not linear, is as asked for to round-off: the square of what is left.
 [[nodiscard]] bool is_near(const RollingPoint& point, const RollingPoint& before);

@@ -8,8 +8,8 @@
 
 #include "rondo/contact/cone.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/statics/steady/law/rolling_law.hpp"
 #include "rondo/statics/steady/rolling_groups.hpp"
-#include "rondo/statics/steady/rolling_law.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -37,13 +37,13 @@ void iterate(const SpaceProblem& problem, const RollingDrive& drive, RollingStat
     RollingPoint next = system.solve();
     if (!next.force.allFinite()) return;
     const VectorXd moved = gaps_and_ways(problem, next, drive.path());
-    const double residual = residual_of(problem, next, moved, drive.friction);
+    const double residual = residual_of(problem, next, moved, drive.coefficients());
     const bool better = residual < s.residual;
     without_gain = better ? 0 : without_gain + 1;
     const bool settled = s.solved() && !(residual < 0.1 * s.residual);
     const bool near = !drive.torque || is_near(next, point);
     point = std::move(next);
-    statuses = statuses_of(problem, point, moved, drive.friction);
+    statuses = statuses_of(problem, point, moved, drive.coefficients());
     if (better || (s.solved() && residual <= rolling_residual_bound)) {
       s.point = point;
       s.statuses = statuses;
@@ -78,21 +78,22 @@ void sweep(const SpaceProblem& problem, const RollingDrive& drive, RollingState&
     for (const Index pair : order) {
       const Index row = 3 * pair;
       const NodeMatrix<3> own = matrix.block<3, 3>(row, row);
+      const double friction = drive.coefficients()[at(pair)];
       // The law of this pair alone has no single solution: it is left to the others.
-      if (!(own(0, 0) > drive.friction * std::hypot(own(0, 1), own(0, 2)))) continue;
+      if (!(own(0, 0) > friction * std::hypot(own(0, 1), own(0, 2)))) continue;
       contact::SpatialProblem local;
       const NodeVector<3> before = s.point.force.segment<3>(row);
       local.free = vec_of(NodeVector<3>(moved.segment<3>(row) - own * before));
       for (Index c = 0; c < 3; ++c) local.delassus[at(c)] = {own(c, 0), own(c, 1), own(c, 2)};
       const NodeVector<3> change =
-          node_vector(contact::solve_spatial(local, drive.friction).impulse) - before;
+          node_vector(contact::solve_spatial(local, friction).impulse) - before;
       if (change.isZero(0.0) || !change.allFinite()) continue;
       s.point.force.segment<3>(row) += change;
       moved += matrix.middleCols<3>(row) * change;
     }
   const auto size = static_cast<double>(problem.size());
   s.effort.work += 2.0 * sweeps_a_round * size * size;
-  s.statuses = statuses_of(problem, s.point, moved, drive.friction);
+  s.statuses = statuses_of(problem, s.point, moved, drive.coefficients());
 }
 
 /// Without friction; where that does not end, from the solution on groups of pairs, and that from
@@ -136,6 +137,8 @@ template <>
 void begin(const RollingProblem<3>& problem, const RollingDrive& drive, RollingState& s) {
   RollingDrive smooth = drive;
   smooth.friction = 0.0;
+  smooth.law = nullptr;
+  smooth.pairs.clear();
   smooth.traction.reset();
   smooth.torque.reset();
   smooth.speed = s.point.speed;
