@@ -18,9 +18,11 @@ using contact::Status;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr int most_iterations = 80;     // of the coefficients, at one share
-constexpr int most_stalled = 2;         // of them along the tangent that gain nothing
-constexpr double gain = 0.5;            // of the largest change
+constexpr int most_free = 80;           // iterations that may lead away
+constexpr int most_stalled = 2;         // of them along the tangent
+constexpr double gain = 0.5;            // of the largest change, else they are stalled
+constexpr int most_descents = 30;       // steps of the descent
+constexpr int most_mixed = 8;           // accelerated iterations between two of them
 constexpr std::size_t mixed = 12;       // points of the acceleration
 constexpr double on_the_way = 1e-6;     // largest change of a coefficient at a share below 1
 constexpr double falling_step = 0.125;  // of the share, with friction that falls
@@ -65,14 +67,24 @@ class LawFollower {
     return frictions_at(problem_, drive_, at_.point, share);
   }
   bool solve_with(const std::vector<PairFriction>& pairs);
-  bool settle(double share, bool is_solved);
+  bool settle(double share);
+  bool run_free(double share);
+  bool descend(double share);
+  void go_back(const RollingState& to);
+  [[nodiscard]] bool is_spent() const noexcept { return work_ > most_efforts * at_.effort.most; }
+  [[nodiscard]] static double bound_at(double share) noexcept {
+    return share == 1.0 ? coefficient_bound : on_the_way;
+  }
+  bool go_towards(const VectorXd& factors, double share);
+  bool mix(double share);
   bool take_constant();
   void take_steps();
   void finish();
-  void give_up(const FrictionEffort& effort);
+  void give_up();
   [[nodiscard]] double largest_change(const std::vector<PairFriction>& next);
-  [[nodiscard]] std::vector<PairFriction> along_tangent(std::vector<PairFriction> found,
-                                                        double share) const;
+  [[nodiscard]] double distance_of(const std::vector<PairFriction>& next) const;
+  [[nodiscard]] RollingPoint tangent_point(const std::vector<PairFriction>& found) const;
+  [[nodiscard]] VectorXd along_tangent(const std::vector<PairFriction>& found) const;
 
   const RollingProblem<D>& problem_;
   const RollingDrive& drive_;
@@ -94,6 +106,16 @@ bool LawFollower<D>::solve_with(const std::vector<PairFriction>& pairs) {
   return at_.solved();
 }
 
+/// What it took stays counted.
+template <int D>
+void LawFollower<D>::go_back(const RollingState& to) {
+  const RollingEffort effort = at_.effort;
+  const int problems = at_.friction.problems;
+  at_ = to;
+  at_.effort = effort;
+  at_.friction.problems = problems;
+}
+
 /// Of the coefficients of pairs that touch.
 template <int D>
 double LawFollower<D>::largest_change(const std::vector<PairFriction>& next) {
@@ -108,42 +130,114 @@ double LawFollower<D>::largest_change(const std::vector<PairFriction>& next) {
   return at_.friction.change = largest;
 }
 
-/// Coefficients where the law that is linear about this state leads to, with statuses as they are.
+/// Root of the sum of the squares of all changes.
 template <int D>
-std::vector<PairFriction> LawFollower<D>::along_tangent(std::vector<PairFriction> found,
-                                                        double share) const {
-  RollingDrive linear = drive_;
-  linear.law = nullptr;
-  linear.pairs = std::move(found);
-  const RollingPoint to = RollingSystem<D>(problem_, linear, at_.statuses, at_.point).solve();
-  if (!to.force.allFinite()) return without_slopes(std::move(linear.pairs));
-  return without_slopes(frictions_at(problem_, drive_, to, share));
+double LawFollower<D>::distance_of(const std::vector<PairFriction>& next) const {
+  double sum = 0.0;
+  for (std::size_t j = 0; j < next.size(); ++j)
+    if (at_.statuses[j].status != Status::open)
+      sum += std::pow(next[j].factor - at_.pairs[j].factor, 2);
+  return std::sqrt(sum);
 }
 
-/// @param is_solved with its coefficients. @return whether they settle at a share
+/// Where the law that is linear about this state leads to, with statuses as they are; this state,
+/// if it leads nowhere.
 template <int D>
-bool LawFollower<D>::settle(double share, bool is_solved) {
-  Anderson mix(mixed);
-  std::vector<PairFriction> next = at_.pairs;
-  double best = std::numeric_limits<double>::infinity();
-  int stalled = 0;
-  const double bound = share == 1.0 ? coefficient_bound : on_the_way;
-  for (int n = 0; n < most_iterations && work_ <= most_efforts * at_.effort.most; ++n) {
-    if (!is_solved && !solve_with(next)) return false;
-    is_solved = false;
-    std::vector<PairFriction> found = frictions(share);
-    const double change = largest_change(found);
-    if (change < bound) return true;
-    if (change < gain * best)
-      best = change, stalled = 0;
-    else
-      ++stalled;
-    if (stalled <= most_stalled)
-      next = along_tangent(std::move(found), share);
-    else
-      next = pairs_of(mix.next(factors_of(at_.pairs), factors_of(found)));
+RollingPoint LawFollower<D>::tangent_point(const std::vector<PairFriction>& found) const {
+  RollingDrive linear = drive_;
+  linear.law = nullptr;
+  linear.pairs = found;
+  RollingPoint to = RollingSystem<D>(problem_, linear, at_.statuses, at_.point).solve();
+  return to.force.allFinite() ? to : at_.point;
+}
+
+/// The factors of the linear law there.
+template <int D>
+VectorXd LawFollower<D>::along_tangent(const std::vector<PairFriction>& found) const {
+  const RollingPoint to = tangent_point(found);
+  VectorXd factors = factors_of(found);
+  const VectorXd moved = gaps_and_ways(problem_, to, drive_.path()),
+                 before = gaps_and_ways(problem_, at_.point, drive_.path());
+  for (std::size_t j = 0; j < found.size(); ++j) {
+    const auto row = static_cast<Index>(D * j);
+    const double normal = at_.point.force[row];
+    if (!(normal > 0.0)) continue;
+    const double way = moved.template segment<D - 1>(row + 1).norm() -
+                       before.template segment<D - 1>(row + 1).norm();
+    factors[static_cast<Index>(j)] +=
+        (found[j].by_normal * (to.force[row] - normal) + found[j].by_way * way) /
+        (drive_.friction * normal);
+  }
+  return factors;
+}
+
+/// A part of the way from the factors so far to others that lessens how far they are from their
+/// own.
+/// @return whether there is one
+template <int D>
+bool LawFollower<D>::go_towards(const VectorXd& to, double share) {
+  const RollingState before = at_;
+  const VectorXd from = factors_of(at_.pairs);
+  const double distance = distance_of(frictions(share));
+  for (const double part : {1.0, 0.5, 0.25, 0.1}) {
+    const bool is_solved = solve_with(pairs_of(from + part * (to - from)));
+    if (is_solved && distance_of(frictions(share)) < (1.0 - 0.1 * part) * distance) return true;
+    go_back(before);
   }
   return false;
+}
+
+/// Some steps of the accelerated iteration, which may lead away first.
+template <int D>
+bool LawFollower<D>::mix(double share) {
+  Anderson acceleration(mixed);
+  for (int n = 0; n < most_mixed; ++n) {
+    const VectorXd next = acceleration.next(factors_of(at_.pairs), factors_of(frictions(share)));
+    if (!solve_with(pairs_of(next))) return false;
+  }
+  return true;
+}
+
+/// Where steps along the tangent gain nothing for a while, as statuses go to and fro, the iteration
+/// is accelerated. @return whether the coefficients settle
+template <int D>
+bool LawFollower<D>::run_free(double share) {
+  Anderson acceleration(mixed);
+  const double bound = bound_at(share);
+  double best = std::numeric_limits<double>::infinity();
+  for (int n = 0, stalled = 0; n < most_free && !is_spent(); ++n) {
+    const std::vector<PairFriction> found = frictions(share);
+    const double change = largest_change(found);
+    if (change < bound) return true;
+    stalled = change < gain * best ? 0 : stalled + 1;
+    if (stalled == 0) best = change;
+    const VectorXd next =
+        stalled <= most_stalled
+            ? factors_of(frictions_at(problem_, drive_, tangent_point(found), share))
+            : acceleration.next(factors_of(at_.pairs), factors_of(found));
+    if (!solve_with(pairs_of(next))) return false;
+  }
+  return false;
+}
+
+/// @return whether the coefficients settle
+template <int D>
+bool LawFollower<D>::descend(double share) {
+  for (int n = 0; n < most_descents && !is_spent(); ++n) {
+    const std::vector<PairFriction> found = frictions(share);
+    if (largest_change(found) < bound_at(share)) return true;
+    if (!go_towards(along_tangent(found), share) && !mix(share)) return false;
+  }
+  return false;
+}
+
+/// @return whether the coefficients settle at a share
+template <int D>
+bool LawFollower<D>::settle(double share) {
+  const RollingState before = at_;
+  if (run_free(share)) return true;
+  go_back(before);
+  return descend(share);
 }
 
 template <int D>
@@ -160,27 +254,22 @@ void LawFollower<D>::take_steps() {
   while (at_.friction.share < 1.0) {
     const RollingState before = at_;
     const double to = std::min(1.0, at_.friction.share + step);
-    if (settle(to, true)) {
+    if (settle(to)) {
       at_.friction.share = to;
       ++at_.friction.steps;
       step = std::min(first, 2.0 * step);
       continue;
     }
-    const RollingEffort effort = at_.effort;
-    FrictionEffort found = at_.friction;
     step *= 0.5;
-    if (step < least_step || work_ > most_efforts * effort.most) return give_up(found);
-    at_ = before;
-    at_.effort = effort;
-    at_.friction.problems = found.problems;
+    if (step < least_step || is_spent()) return give_up();
+    go_back(before);
     ++at_.friction.restarts;
   }
   finish();
 }
 
 template <int D>
-void LawFollower<D>::give_up(const FrictionEffort& effort) {
-  at_.friction = effort;
+void LawFollower<D>::give_up() {
   at_.friction.solved = false;
   at_.residual = std::numeric_limits<double>::infinity();
 }
@@ -203,12 +292,9 @@ void LawFollower<D>::follow() {
     at_.pairs.resize(problem_.pairs.size());
     const RollingState before = at_;
     at_.friction = {};
-    if (settle(1.0, false)) return finish();
-    const RollingEffort effort = at_.effort;
-    const int problems = at_.friction.problems;
-    at_ = before;
-    at_.effort = effort;
-    at_.friction = {.problems = problems};
+    if (solve_with(at_.pairs) && settle(1.0)) return finish();
+    go_back(before);
+    at_.friction = {.problems = at_.friction.problems};
   }
   if (take_constant()) take_steps();
 }
