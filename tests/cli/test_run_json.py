@@ -31,6 +31,7 @@ RUNS = {  # name: case, settings
     "steady-load": (SMALL, ["analysis.kind=steady-rolling", "analysis.load=500", "analysis.traction=0"]),
     "steady-torque": (SMALL, [*STEADY, "analysis.torque=0"]),
     "steady-lossy": (SMALL, [*STEADY, "material.loss_factor=0.1", "material.loss_band=[1.0, 100.0]"]),
+    "steady-friction": (SMALL, [*STEADY, "ground.friction={coefficient=0.3, slip_speed=[[0, 1], [1, 0.8]]}"]),
     "steady-wheel": (SMALL, [*STEADY, *WIDE, "analysis.estimate_slip_error=true"]),
     "steady-turned": (SMALL, [*STEPPED, "analysis.slip_angle_step=0.01"]),
     "steady-slipped": (SMALL, [*STEPPED, "analysis.slip_ratio_step=0.01"]),

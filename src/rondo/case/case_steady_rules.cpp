@@ -76,9 +76,12 @@ void check_traction(CaseValues& in, const Case& c) {
   if (!(std::abs(*a.traction) < most))
     in.fault("analysis.traction",
              "the whole contact would slide, which does not determine the speed",
-             most > 0.0 ? fmt::format("> {0:.6g} and < {1:.6g}, ground.friction times "
-                                      "analysis.load; or motion.speed instead",
-                                      -most, most)
+             most > 0.0 ? fmt::format("> {0:.6g} and < {1:.6g}, {2} times analysis.load; or "
+                                      "motion.speed instead",
+                                      -most, most,
+                                      c.ground->friction.is_constant()
+                                          ? "ground.friction"
+                                          : "the largest coefficient of ground.friction")
                         : std::string("motion.speed instead, because without friction no traction "
                                       "determines it; or ground.friction above 0"));
 }

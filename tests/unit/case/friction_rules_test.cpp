@@ -109,18 +109,24 @@ TEST(FrictionOfTheGround, PatchesHaveALengthAndASide) {
             "ground.patch[0].factor: is missing (0 to 100)\n");
 }
 
-/// The key that makes friction no constant is named, and a table that is a constant is taken.
-TEST(FrictionOfTheGround, AnalysesWithOneCoefficientRefuseOthers) {
+/// The key that is refused is named, and a table that is a constant is taken. Steady rolling takes
+/// all tables, but no patches.
+TEST(FrictionOfTheGround, AnalysesRefuseWhatTheyCannotTake) {
   const std::vector<std::string> steady{"analysis.kind=steady-rolling", "ground.profile=flat",
                                         "ground.fillet=0"};
   const auto refused = [&](std::vector<std::string> more) {
     more.insert(more.begin(), steady.begin(), steady.end());
     return faults(tabled, more);
   };
-  EXPECT_EQ(refused({}).substr(0, 60),
-            "ground.friction: steady rolling takes one coefficient of fri");
-  EXPECT_EQ(refused({patch, "ground.friction=0.5"}).substr(0, 31),
-            "ground.patch[0]: steady rolling");
+  EXPECT_EQ(refused({}), "");
+  EXPECT_EQ(refused({patch}).substr(0, 33), "ground.patch[0]: a wheel that pas");
+  EXPECT_EQ(refused({patch, "ground.friction=0.5"}).substr(0, 33),
+            "ground.patch[0]: a wheel that pas");
+  const std::vector<std::string> start{"initial.state=steady-rolling", "ground.profile=flat",
+                                       "ground.fillet=0"};
+  EXPECT_EQ(faults(tabled, start), "");
+  EXPECT_EQ(faults(tabled, {start[0], start[1], start[2], patch}).substr(0, 33),
+            "ground.patch[0]: a start in stead");
   EXPECT_EQ(refused({"ground.friction={coefficient = 0.5, slip_speed = [[0, 1.1], [1, 1.1]]}"}),
             "");
   EXPECT_EQ(refused({patch, "ground.friction=0"}), "");

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
+#include "rondo/analysis/build/ground/rolling_law.hpp"
 #include "rondo/case/case_rules.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
@@ -61,7 +63,8 @@ void refuse(const Case& c, const statics::RollingSolution& found, double height)
                      fmt::format("no steady rolling was found to start in: residual {:.3g}, bound "
                                  "{:.0e}, after {} Newton steps and {} pivots",
                                  found.residual, statics::rolling_residual_bound,
-                                 found.effort.newton_steps, found.effort.pivots),
+                                 found.effort.newton_steps, found.effort.pivots) +
+                         (found.friction.solved ? "" : ", and the friction did not settle"),
                      "a smaller ground.friction, another motion.height; or \"stationary\" and a "
                      "run long enough to settle");
 }
@@ -141,7 +144,10 @@ void set_steady_rolling(const Case& c, Setup& s) {
   statics::RollingDrive drive;
   drive.height = m.motion.height.at(0.0) - floor;
   drive.speed = m.motion.speed.at(0.0);
-  drive.friction = m.contact->law.friction.constant();
+  drive.friction = constant_part(c.ground->friction);
+  const std::optional<statics::RollingFriction> law = rolling_friction_of(
+      c.ground->friction, extents_of<2>(s.mesh, *m.sector, harmonics.body().candidates));
+  if (law) drive.law = &*law;
   const statics::RollingSolution found = solve_rolling(window, drive);
   refuse(c, found, drive.height);
   const Eigen::MatrixXcd spectrum = spectrum_of(window, found);

@@ -64,6 +64,10 @@ class Roller {
 
 std::string Roller::trouble(const RollingSolution& s, const std::string& where) const {
   std::string found = fmt::format("the contact was not solved, residual {:.3g}", s.residual);
+  if (!s.friction.solved)
+    found = fmt::format(
+        "the coefficients of ground.friction did not settle, the largest still changes by {:.2g}",
+        s.friction.change);
   if (s.end == RollingEnd::sliding) found = "the whole contact slides, which leaves the speed open";
   if (s.end == RollingEnd::no_contact) found = "nothing touches the ground";
   return fmt::format(

@@ -2,6 +2,7 @@
 #include "rondo/analysis/steady/steady_members.hpp"
 
 #include <cmath>
+#include <string_view>
 
 #include "rondo/analysis/base/shared_members.hpp"
 #include "rondo/analysis/steady/steady.hpp"
@@ -74,7 +75,7 @@ bool has_no_rate(const Case& c) noexcept {
 }
 
 constexpr JsonMember<SteadyFigures> slopes_rows[] = {
-    {"by_friction", "object", "", "By `ground.friction`",
+    {"by_friction", "object", "", "By `ground.friction`, or the coefficient of its table",
      [](const SteadyFigures& k) { return slope_of(k, k.s.slopes.by_friction); },
      [] { return texts_of(slope_rows); }},
     {"by_load", "object", "", "By the load, where that is given",
@@ -108,6 +109,16 @@ constexpr JsonMember<SteadyFigures> slopes_rows[] = {
        return k.solid ? slope_of(k, k.s.slopes.by_turn_slip) : absent();
      }},
 };
+
+/// What a table of friction alone has.
+template <class Value>
+Json of_law(const SteadyFigures& k, Value value) {
+  return k.s.pairs.empty() ? absent() : Json(value);
+}
+std::string_view branch_of(const statics::FrictionEffort& f) {
+  if (f.steps == 0) return "near";
+  return f.steps == 1 ? "direct" : "continued";
+}
 
 constexpr JsonMember<statics::RollingPower> power_rows[] = {
     {"drive", "number", "W/m",
@@ -264,6 +275,27 @@ constexpr JsonMember<SteadyFigures> figures_rows[] = {
        return k.slip_error ? object_of(slip_error_rows, {*k.slip_error, k.solid}) : absent();
      },
      [] { return texts_of(slip_error_rows); }},
+    {"friction_branch", "string", "",
+     "With a table of `ground.friction`, how the state was reached: \"direct\", in one step from "
+     "that of the constant coefficient, or \"continued\", in steps of the departure from it, which "
+     "a factor that falls with the slip speed takes, as there may be several states; \"near\": "
+     "with `inflation.nonlinear`, from one under other inner forces, which was reached so",
+     [](const SteadyFigures& k) {
+       return k.s.pairs.empty() ? absent() : Json(branch_of(k.s.friction));
+     }},
+    {"friction_steps", "integer", "", "Steps from the constant coefficient to the table",
+     [](const SteadyFigures& k) { return of_law(k, k.s.friction.steps); }},
+    {"friction_restarts", "integer", "", "Of these, how many were restarted with half the step",
+     [](const SteadyFigures& k) { return of_law(k, k.s.friction.restarts); }},
+    {"friction_change", "number", "",
+     "Largest difference between a coefficient and that of the slip speed and the pressure which "
+     "it "
+     "leads to, bound 1e-10",
+     [](const SteadyFigures& k) { return of_law(k, k.s.friction.change); }},
+    {"friction_min", "number", "", "Smallest coefficient of friction of a node in contact",
+     [](const SteadyFigures& k) { return of_law(k, k.mean.least_friction); }},
+    {"friction_max", "number", "", "Largest coefficient of friction of a node in contact",
+     [](const SteadyFigures& k) { return of_law(k, k.mean.most_friction); }},
     {"residual", "number", "", "Residual of the contact law, over the largest force",
      [](const SteadyFigures& k) -> Json { return k.s.residual; }},
     {"balance_residual", "number", "",

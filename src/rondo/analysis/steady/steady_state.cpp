@@ -8,7 +8,7 @@
 #include <limits>
 #include <utility>
 
-#include "rondo/analysis/build/ground/contact_law.hpp"
+#include "rondo/analysis/build/ground/rolling_law.hpp"
 #include "rondo/analysis/steady/steady_remainder.hpp"
 #include "rondo/core/contract.hpp"
 #include "rondo/core/ground_frame.hpp"
@@ -29,7 +29,7 @@ statics::RollingDrive drive_of(const Case& c, double radius) {
   if (a.traction || a.torque) d.speed = c.motion.angular_velocity.at(0.0) * radius;
   d.slip_angle = c.motion.slip_angle.at(0.0);
   d.turn_slip = a.turn_slip;
-  d.friction = law_of(*c.ground).friction.constant();
+  d.friction = constant_part(c.ground->friction);
   d.load = a.load;
   d.traction = a.traction;
   d.torque = a.torque;
@@ -43,9 +43,13 @@ SteadyState<D>::SteadyState(const Case& c, const SteadyBody<D>& body)
     : case_(c),
       body_(body),
       window_(body.window_of(c, slip_of(c))),
+      law_(rolling_friction_of(
+          c.ground->friction,
+          extents_of<D>(body.mesh, body.sector, body.harmonics->body().candidates))),
       drive_(drive_of(c, body.radius)),
       candidate_of_(body.mesh.n_nodes()),
       sums_(static_cast<std::size_t>(c.analysis.samples_per_sector)) {
+  if (law_) drive_.law = &*law_;
   for (std::size_t k = 0; k < body.mesh.boundary.size(); ++k)
     candidate_of_[at(body.mesh.boundary[k])] = k;
   demand_free_shape(c, window_.lowest(), body.radius);
@@ -232,6 +236,9 @@ void SteadyState<D>::add(std::size_t pair, double share, SteadySums& s) const {
   s.friction -= share * shear.dot(solution_.gap_and_slip.template segment<D - 1>(row + 1));
   s.speed = std::max(s.speed, std::abs(slip(pair)));
   s.penetration = std::max(s.penetration, -gap);
+  const double coefficient = statics::PairCoefficients(drive_.friction, solution_.pairs)[pair];
+  s.least_friction = std::min(s.least_friction, coefficient);
+  s.most_friction = std::max(s.most_friction, coefficient);
 }
 
 /// What each pair that is pressed stands for at its place, of the deformed boundary.

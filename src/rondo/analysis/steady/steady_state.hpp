@@ -3,6 +3,7 @@
 /// sector's pass (docs/theory.md, 11.3 and 11.4, and docs/wheel3d.md), in the plane (D = 2), where
 /// all is per metre of width, or in space.
 #pragma once
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "rondo/mesh/deformed_boundary.hpp"
 #include "rondo/output/columns.hpp"
 #include "rondo/statics/steady/finite_rolling.hpp"
+#include "rondo/statics/steady/law/rolling_friction.hpp"
 
 namespace rondo::study {
 
@@ -25,7 +27,9 @@ struct SteadySums {
   double friction = 0.0;               ///< power taken by friction                     [W]
   double speed = 0.0;                  ///< largest slip                              [m/s]
   double penetration = 0.0;            ///< largest                                     [m]
-  double length = 0.0, width = 0.0;    ///< of the footprint, in space only             [m]
+  /// Coefficients of friction of those nodes.
+  double least_friction = std::numeric_limits<double>::infinity(), most_friction = 0.0;
+  double length = 0.0, width = 0.0;  ///< of the footprint, in space only             [m]
 };
 
 template <int D>
@@ -57,6 +61,8 @@ class SteadyState final : public RolledState {
   using Vec = typename statics::RollingBody<D>::Vec;
   /// The torque on the rim, clockwise, that keeps the spin constant [N m].
   [[nodiscard]] double torque() const noexcept { return solution_.forces.torque; }
+  /// What is known of coefficients that did not settle.
+  [[nodiscard]] std::string friction_not_found() const;
   /// Power lost over speed: (ω T - V·F - φ V M_n) / |V|; NaN where V is 0 [N].
   [[nodiscard]] double resistance() const noexcept;
   [[nodiscard]] double slip_ratio() const noexcept;
@@ -98,6 +104,7 @@ class SteadyState final : public RolledState {
   const Case& case_;
   const SteadyBody<D>& body_;
   statics::RollingWindow<D> window_;
+  std::optional<statics::RollingFriction> law_;  ///< none: friction is constant
   statics::RollingDrive drive_;
   statics::RollingSolution solution_;
   Eigen::MatrixXcd spectrum_;

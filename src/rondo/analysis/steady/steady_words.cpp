@@ -84,10 +84,34 @@ std::string SteadyState<D>::why_it_slides() const {
   if (D == 3)
     return "nearer to 0, or a smaller motion.slip_angle, because both share the friction; or "
            "motion.speed instead";
+  return fmt::format("nearer to 0, below {} = {:.6g} times the load{}; or motion.speed instead",
+                     law_ ? "ground.friction.coefficient" : "ground.friction", drive_.friction,
+                     case_.analysis.torque ? " times the height" : "");
+}
+
+template <int D>
+std::string SteadyState<D>::friction_not_found() const {
+  const statics::FrictionEffort& f = solution_.friction;
+  const std::size_t pair = f.pair;
+  const double extent = law_->extent[window_.pairs()[pair].candidate];
+  const Where w = where(pair);
+  const AnalysisCase& a = case_.analysis;
+  const std::string fewer =
+      a.samples_per_sector > 1
+          ? fmt::format("fewer analysis.samples_per_sector than {}", a.samples_per_sector)
+          : std::string("another number of sectors");
   return fmt::format(
-      "nearer to 0, below ground.friction = {:.6g} times the load{}; or "
-      "motion.speed instead",
-      drive_.friction, case_.analysis.torque ? " times the height" : "");
+      "ground.friction: no state was found whose coefficients are those of its slip speeds and "
+      "pressures: {:.4g} of the way from the constant coefficient to the table were reached, in {} "
+      "problems of contact and {} restarts; beyond, a coefficient still changes by {:.2g} (bound "
+      "{:.0e}), at contact node {} at sample {}, which slides at {:.4g} m/s under {:.4g} Pa; {}{}, "
+      "a ground.friction.slip_speed that falls less steeply{}",
+      f.share, f.problems, f.restarts, f.change, statics::coefficient_bound,
+      body_.mesh.boundary[w.candidate], w.place, std::abs(slip(pair)), force(pair)[0] / extent,
+      fewer, a.slip == RollingSlip::bdf2 ? ", analysis.slip = \"upwind\"" : "",
+      a.traction || a.torque
+          ? "; or motion.speed instead, because friction that falls may not carry the force"
+          : "; or a dynamic analysis");
 }
 
 /// In space, where pairs may be too many for the work on them, what makes fewer comes first.
@@ -95,6 +119,7 @@ template <int D>
 std::string SteadyState<D>::not_solved() const {
   const AnalysisCase& a = case_.analysis;
   const statics::RollingEffort& effort = solution_.effort;
+  if (law_ && !solution_.friction.solved) return friction_not_found();
   if (finite_ && finite_->effort.turns > 1)
     return fmt::format(
         "the nonlinear forces (inflation.nonlinear) were not balanced: {} problems of contact "
@@ -190,6 +215,7 @@ template void SteadyBody<2>::add_columns(RecordPlan&) const;
 template void SteadyState<2>::append_row(int, const Snapshot&, std::vector<double>&) const;
 template std::string SteadyState<2>::nothing_touches() const;
 template std::string SteadyState<2>::why_it_slides() const;
+template std::string SteadyState<2>::friction_not_found() const;
 template std::string SteadyState<2>::not_solved() const;
 template std::string SteadyState<2>::resistance_note() const;
 template std::vector<std::string> SteadyState<2>::notes() const;
@@ -198,6 +224,7 @@ template void SteadyBody<3>::add_columns(RecordPlan&) const;
 template void SteadyState<3>::append_row(int, const Snapshot&, std::vector<double>&) const;
 template std::string SteadyState<3>::nothing_touches() const;
 template std::string SteadyState<3>::why_it_slides() const;
+template std::string SteadyState<3>::friction_not_found() const;
 template std::string SteadyState<3>::not_solved() const;
 template std::string SteadyState<3>::resistance_note() const;
 template std::vector<std::string> SteadyState<3>::notes() const;

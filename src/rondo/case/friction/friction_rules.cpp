@@ -56,26 +56,31 @@ bool is_no_constant(const FrictionTable& friction) {
   return !friction.is_constant();
 }
 
+bool has_patches(const FrictionTable& friction) {
+  FrictionTable patches{
+      .coefficient = friction.coefficient, .slip = {}, .patches = friction.patches};
+  return !patches.is_constant();
+}
+
 constexpr FrictionRefusal friction_refusals[] = {
-    {[](const Case& c) { return c.analysis.kind == AnalysisKind::steady_rolling; }, is_no_constant,
-     "steady rolling takes one coefficient of friction for all contacts",
-     "a number, and no [[ground.patch]]; or a dynamic analysis, long enough to settle"},
+    {[](const Case& c) { return c.analysis.kind == AnalysisKind::steady_rolling; }, has_patches,
+     "a wheel that passes from one stretch of the ground to another does not roll steadily",
+     "no [[ground.patch]]; or a dynamic analysis"},
     {[](const Case& c) {
        return c.analysis.kind == AnalysisKind::dynamic &&
               c.initial.state == InitialState::steady_rolling;
      },
-     is_no_constant, "a start in steady rolling takes one coefficient of friction for all contacts",
-     "a number, and no [[ground.patch]]; or initial.state = \"stationary\""},
+     has_patches, "a start in steady rolling has one friction everywhere on the ground",
+     "no [[ground.patch]]; or initial.state = \"stationary\""},
     {[](const Case& c) { return c.analysis.kind == AnalysisKind::crush; }, is_no_constant,
      "a crush takes one coefficient of friction for all contacts",
      "a number, and no [[ground.patch]]"},
 };
 
-/// The key that makes the friction no constant.
-std::string_view key_of_friction(const FrictionTable& friction) {
-  FrictionTable without_patches = friction;
-  without_patches.patches.clear();
-  return without_patches.is_constant() ? "ground.patch[0]" : table_key;
+/// The key that is refused: patches, if without them it would not be.
+std::string_view key_of(const FrictionRefusal& refusal, FrictionTable friction) {
+  friction.patches.clear();
+  return refusal.cannot(friction) ? table_key : "ground.patch[0]";
 }
 
 }  // namespace
@@ -91,7 +96,7 @@ void check_friction(CaseValues& in, const Case& c) {
   check_patches(in, c);
   for (const FrictionRefusal& refusal : friction_refusals)
     if (refusal.is_in(c) && refusal.cannot(friction))
-      in.refuse(key_of_friction(friction), std::string(refusal.why), std::string(refusal.instead));
+      in.refuse(key_of(refusal, friction), std::string(refusal.why), std::string(refusal.instead));
 }
 
 }  // namespace rondo::study
