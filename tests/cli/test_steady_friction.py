@@ -92,6 +92,14 @@ class SteadyFriction(RunTest):
             for name in ("force_x", "force_y"):
                 self.assertAlmostEqual(np.mean(rows[name][late]), steady[name], delta=0.005 * steady["force_y"])
 
+    def test_is_what_a_run_in_time_may_start_in(self):
+        steady, _ = self.of(GENTLE, "analysis.samples_per_sector=4", text=FINE)
+        told = run("check", self.case(IN_TIME), *settings(GENTLE, "motion.height=0.29",
+                                                           "initial.state=steady-rolling")).stdout
+        self.assertIn(f"steady rolling: F_x {steady['force_x']:.6g}, F_y {steady['force_y']:.6g} N/m", told)
+        constant, _ = self.of("ground.friction=0.6", "analysis.samples_per_sector=4", text=FINE)
+        self.assertNotIn(f"F_x {constant['force_x']:.6g}", told)
+
     def test_slopes_are_those_of_differences(self):
         steady, _ = self.of(TABLE)
         for key, slope, step in (("motion.speed=", "by_speed", 1e-4), ("ground.friction.coefficient=", "by_friction",
