@@ -118,6 +118,28 @@ TEST(RollingFriction, EachPairHasTheCoefficientOfItsOwnSlipAndPressure) {
   RecordProperty("problems", s.friction.problems);
 }
 
+/// A tread under much friction, which Newton's method does not end on: the complementary problem
+/// has the coefficient of each pair.
+TEST(RollingFriction, PivotingHasTheCoefficientOfEachPair) {
+  test::DiskCase c = test::rolling_disk(3, 0);
+  c.disk.tread = mesh::Tread{20, 0.02, 3, 1, 2};
+  const test::SteadyBody b(c, 16, true);
+  for (const double spread : {0.0, 0.1, 0.2, 0.3}) {
+    RollingWindow<2> w = b.window(SlipDifference::bdf2);
+    RollingDrive d = test::at_height(2.0);
+    d.speed = 9.0;
+    const RollingSolution constant = solve_rolling(w, d);
+    ASSERT_EQ(constant.end, RollingEnd::solved);
+    for (std::size_t j = 0; j < w.pairs().size(); ++j)
+      d.pairs.push_back({.factor = 1.0 + spread * (j % 2 == 0 ? 1.0 : -1.0)});
+    const RollingSolution s = solve_rolling(w, d);
+    ASSERT_EQ(s.end, RollingEnd::solved) << spread << " " << s.residual;
+    EXPECT_LT(rolling_residual(w, s, d.coefficients()), 1e-10);
+    EXPECT_EQ(rolling_residual(w, s, d.friction) > 1e-6, spread > 0.0);
+    EXPECT_GT(s.effort.pivots, 100) << spread;
+  }
+}
+
 TEST(RollingFriction, SlopesInThePlaneAreThoseOfDifferences) {
   const test::SteadyBody b(disk_case(), 8, true);
   RollingWindow<2> w = b.window(SlipDifference::bdf2);

@@ -89,7 +89,7 @@ class LawFollower {
   const RollingProblem<D>& problem_;
   const RollingDrive& drive_;
   RollingState& at_;
-  double work_ = 0.0;
+  double work_ = 0.0;  ///< of all problems so far
 };
 
 /// With coefficients that are given.
@@ -285,13 +285,13 @@ void LawFollower<D>::finish() {
   at_.pairs = without_slopes(std::move(linear.pairs));
 }
 
-/// Near a state that has coefficients from these; else, or where they do not settle, in steps.
+/// Near a state that has coefficients from these, and with the steps that led to it where it is one
+/// of fewer pairs; else, or where they do not settle, in steps.
 template <int D>
 void LawFollower<D>::follow() {
   if (!at_.pairs.empty()) {
     at_.pairs.resize(problem_.pairs.size());
     const RollingState before = at_;
-    at_.friction = {};
     if (solve_with(at_.pairs) && settle(1.0)) return finish();
     go_back(before);
     at_.friction = {.problems = at_.friction.problems};
