@@ -225,9 +225,7 @@ class Refused(ProgramTest):
 
     def test_steps_and_analyses_that_take_one_coefficient_say_so(self):
         crush = ("analysis.kind=crush", "analysis.depth=0.005", "analysis.increments=3")
-        for given, said in ((("analysis.kind=steady-rolling", "motion.height=0.296"), "steady rolling takes one"),
-                            (("initial.state=steady-rolling", "motion.height=0.296"), "a start in steady rolling"),
-                            (crush, "a crush takes one coefficient"),
+        for given, said in ((crush, "a crush takes one coefficient"),
                             ((*crush, "analysis.solver=latin"), "a crush takes one coefficient"),
                             (("time.scheme=hati", "solver.hati.ratio=2", "solver.hati.fine.layers=[3]"),
                              "one coefficient of friction for all contacts")):
@@ -235,7 +233,9 @@ class Refused(ProgramTest):
                 told = self.refused(["check"], RUBBER, *given)
                 self.assertIn("ground.friction", told)
                 self.assertIn(said, told)
-        self.assertIn("ground.patch", self.refused(["check"], PATCH, *crush))
+        steady, start = "analysis.kind=steady-rolling", "initial.state=steady-rolling"
+        for given in (crush, (steady, "motion.height=0.296"), (start, "motion.height=0.296")):
+            self.assertIn("ground.patch", self.refused(["check"], PATCH, *given))
 
     def test_a_standing_wheel_and_a_reduced_one_say_so(self):
         text = WHEEL3D.replace("height = [[0, 0.3], [0.004, 0.296]]", "height = 0.296")
