@@ -29,11 +29,12 @@ class FrictionWork(ProgramTest):
         with h5py.File(out / "results.h5") as file:
             nodes = file["contact/friction_work"][:]
             places = file["contact/friction_places"][:]
-            size = np.diff(file["contact/friction_along"][:2])[0]
+            size = np.full(places.shape[1:], np.diff(file["contact/friction_along"][:2])[0])
             if "friction_across" in file["contact"]:
                 size *= np.diff(file["contact/friction_across"][:2])[0]
-            flat = places.reshape(len(places), -1)
-            return file["frame/time"][:], nodes @ file["mesh/tributary"][:], size * flat.sum(axis=1)
+                size[:, [0, -1]] *= 0.5
+            in_all = (places * size).reshape(len(places), -1).sum(axis=1)
+            return file["frame/time"][:], nodes @ file["mesh/tributary"][:], in_all
 
     def test_sums_are_those_of_the_energy_balance(self):
         """A row has the works of the steps before its own."""

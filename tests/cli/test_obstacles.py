@@ -144,6 +144,7 @@ class Refused(ProgramTest):
         steady = (ROOT / "cases" / "steady-rolling.toml").read_text()
         said = self.refused(steady, CLEAT)
         self.assertIn("ground.obstacle: steady rolling needs flat ground", said)
+        self.assertIn("no [[ground.obstacle]]", said)
 
     def test_a_small_fillet_is_told_of_by_its_own_key(self):
         small = "ground.obstacle=[{kind = 'step', at = 0.25, height = 0.02, fillet = 0.004}]"

@@ -47,7 +47,17 @@ def plot_wear(run: Run, from_time: float | None = None, to_time: float | None = 
     elif has_places:
         _draw_places(run, axes[0], from_time, to_time)
     _draw_tread(run, axes[-1], wear)
+    if not run.is_steady:
+        first, last = _ends(run, from_time, to_time)
+        axes[-1].set_title(f"{run.times[first]:.4g} to {run.times[last]:.4g} s, {wear.turns:.3g} turns",
+                           fontsize="small")
     return figure
+
+
+def _ends(run: Run, from_time: float | None, to_time: float | None) -> tuple[int, int]:
+    """The snapshots between which energies are."""
+    return (0 if from_time is None else run.index(from_time),
+            run.n_snapshots - 1 if to_time is None else run.index(to_time))
 
 
 def _draw_power(run: Run, ax: Axes) -> None:
@@ -66,8 +76,7 @@ def _draw_power(run: Run, ax: Axes) -> None:
 def _draw_places(run: Run, ax: Axes, from_time: float | None, to_time: float | None) -> None:
     found = run.friction_work
     assert found.places is not None
-    first = 0 if from_time is None else run.index(from_time)
-    last = run.n_snapshots - 1 if to_time is None else run.index(to_time)
+    first, last = _ends(run, from_time, to_time)
     energy = np.asarray(found.places[last]) - np.asarray(found.places[first])
     factor, unit = scale_of(energy, "J/m²")
     across = energy if energy.ndim == 1 else np.abs(energy).max(axis=1)
@@ -85,8 +94,8 @@ def _draw_places(run: Run, ax: Axes, from_time: float | None, to_time: float | N
     mesh = ax.pcolormesh(x, 1e3 * found.across, factor * energy[shown].T, cmap=style.SEQUENTIAL,
                          shading="nearest", rasterized=True)
     ax.figure.colorbar(mesh, ax=ax, label=f"energy by place ({unit})")
-    ax.set(xlabel=AHEAD, ylabel=TO_THE_RIGHT)
-    ax.invert_yaxis()
+    sides = 1e3 * found.across[[0, -1]]  # whose places have half of the width
+    ax.set(xlabel=AHEAD, ylabel=TO_THE_RIGHT, ylim=(sides[1], sides[0]))
 
 
 def _draw_tread(run: Run, ax: Axes, wear: Wear) -> None:

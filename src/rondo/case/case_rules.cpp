@@ -300,7 +300,7 @@ void check_flat_ground(CaseValues& in, const Case& c, std::string_view who) {
   const std::vector<Vec2>& profile = c.ground->shape.profile;
   if (!std::all_of(profile.begin(), profile.end(), [&](Vec2 p) { return p.y == profile[0].y; }))
     in.fault(ground_key(c), fmt::format("{} needs flat ground: all points at one height", who),
-             "ground.profile = \"flat\"");
+             c.ground->obstacles.empty() ? "ground.profile = \"flat\"" : "no [[ground.obstacle]]");
 }
 
 void check_analysis(CaseValues& in, Case& c) {

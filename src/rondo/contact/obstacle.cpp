@@ -13,6 +13,9 @@
 namespace rondo::contact {
 namespace {
 
+/// Places that are nearer to each other than this are one [m].
+constexpr double one_place = 1e-9;
+
 /// A place where the level of the ground changes, with the fillet of the edge there.
 struct Rise {
   double at, height, fillet;  ///< [m]
@@ -21,9 +24,6 @@ struct Rise {
 double end_of(const Obstacle& o) {
   return o.kind == ObstacleKind::step ? o.at : o.at + o.length;
 }
-
-/// Places that are nearer to each other than this are one [m].
-constexpr double one_place = 1e-9;
 
 /// Where several obstacles meet, their rises are one.
 std::vector<Rise> joined(const std::vector<Rise>& rises) {
@@ -55,10 +55,11 @@ double on_line(Vec2 a, Vec2 b, double x) {
   return a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
 }
 
-/// Heights of the ground on the left and on the right of a vertical line.
+/// Heights of the ground on the left and on the right of a vertical line. Its points that are as near
+/// to that as one place are on it.
 std::pair<double, double> heights_at(const std::vector<Vec2>& p, double x) {
-  const auto first = std::ranges::lower_bound(p, x, {}, &Vec2::x);
-  const auto after = std::ranges::upper_bound(p, x, {}, &Vec2::x);
+  const auto first = std::ranges::lower_bound(p, x - one_place, {}, &Vec2::x);
+  const auto after = std::ranges::upper_bound(p, x + one_place, {}, &Vec2::x);
   if (first != after) return {first->y, std::prev(after)->y};
   const auto end = std::clamp(after, std::next(p.begin()), std::prev(p.end()));
   const double y = on_line(*std::prev(end), *end, x);
@@ -80,9 +81,9 @@ class Outline {
   }
   /// Points of the ground as it was, up to x; those at x itself are left to a rise there.
   void add_ground_before(double x) {
-    for (; next_ < base_.profile.size() && base_.profile[next_].x < x; ++next_)
+    for (; next_ < base_.profile.size() && base_.profile[next_].x < x - one_place; ++next_)
       add(base_.profile[next_] + Vec2{0.0, level_}, base_.radius_at(next_));
-    while (next_ < base_.profile.size() && base_.profile[next_].x == x) ++next_;
+    while (next_ < base_.profile.size() && base_.profile[next_].x <= x + one_place) ++next_;
   }
   void add_rise(const Rise& rise, double left, double right) {
     add({rise.at, left + level_}, rise.fillet);
@@ -102,12 +103,12 @@ class Outline {
 void keep_ends_going(const GroundShape& base, std::span<const Rise> rises, GroundShape& shape) {
   const std::vector<Vec2>& p = base.profile;
   if (rises.empty()) return;
-  if (rises.front().at <= p.front().x) {
+  if (rises.front().at <= p.front().x + one_place) {
     const double x = rises.front().at - 1.0;
     shape.profile.insert(shape.profile.begin(), {x, on_line(p[0], p[1], x)});
     shape.radii.insert(shape.radii.begin(), 0.0);
   }
-  if (rises.back().at >= p.back().x) {
+  if (rises.back().at >= p.back().x - one_place) {
     const Vec2 a = p[p.size() - 2], b = p.back(), last = shape.profile.back();
     const double x = last.x + 1.0;
     shape.profile.push_back({x, last.y + on_line(a, b, x) - on_line(a, b, last.x)});

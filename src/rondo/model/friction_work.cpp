@@ -36,13 +36,11 @@ std::vector<double> rows_across(const Model& model) {
   return z;
 }
 
-/// The rows in the middles of the first and the last interval.
 PlaceAxis axis_across(const std::vector<double>& rows) {
   const std::size_t count = std::min(rows.size(), FrictionWork::most_across);
   const double extent = rows.back() - rows.front();
   if (count < 2) return {};
-  const double width = extent / static_cast<double>(count - 1);
-  return {rows.front() - 0.5 * width, width, count};
+  return {rows.front(), extent / static_cast<double>(count - 1), count};
 }
 
 PlaceAxis axis_along(const Model& model, std::size_t n_rows) {
@@ -53,20 +51,35 @@ PlaceAxis axis_along(const Model& model, std::size_t n_rows) {
   const double around = static_cast<double>(nodes.size()) / static_cast<double>(n_rows);
   const auto wanted = static_cast<std::size_t>(std::ceil(around / std::numbers::pi));
   const std::size_t count = std::clamp<std::size_t>(wanted, 1, FrictionWork::most_along);
-  return {-radius, 2.0 * radius / static_cast<double>(count), count};
+  const double distance = 2.0 * radius / static_cast<double>(count);
+  return {0.5 * distance - radius, distance, count};
+}
+
+/// A part of an amount and what is left of it, whose sum is the amount exactly: the smaller of both
+/// is the difference of two numbers within a factor of 2.
+struct Parts {
+  double rest = 0.0, part = 0.0;
+};
+Parts parted(double amount, double share) noexcept {
+  const bool small = share <= 0.5;
+  const double larger = amount - (small ? share : 1.0 - share) * amount;
+  const double smaller = amount - larger;
+  return small ? Parts{larger, smaller} : Parts{smaller, larger};
 }
 
 }  // namespace
 
-std::size_t PlaceAxis::interval_of(double x) const noexcept {
-  const double place = (x - from) / width;
-  if (!(place > 0.0)) return 0;
-  return place < static_cast<double>(count) ? static_cast<std::size_t>(place) : count - 1;
+PlaceAxis::Share PlaceAxis::share_of(double x) const noexcept {
+  if (count < 2) return {};
+  const double last = static_cast<double>(count - 1);
+  const double place = std::clamp((x - first) / distance, 0.0, last);
+  const double before = std::min(std::floor(place), last - 1.0);
+  return {static_cast<std::size_t>(before), place - before};
 }
 
-std::vector<double> PlaceAxis::middles() const {
+std::vector<double> PlaceAxis::places() const {
   std::vector<double> x(count);
-  for (std::size_t i = 0; i < count; ++i) x[i] = from + (static_cast<double>(i) + 0.5) * width;
+  for (std::size_t i = 0; i < count; ++i) x[i] = first + static_cast<double>(i) * distance;
   return x;
 }
 
@@ -85,9 +98,18 @@ FrictionWork::FrictionWork(const Model& model)
   sums_ = ExactSums(tributary_.size() + n_places);
 }
 
-std::size_t FrictionWork::place_of(Vec3 place) const noexcept {
-  const std::size_t across = across_.count > 1 ? across_.interval_of(place.z) : 0;
-  return tributary_.size() + along_.interval_of(place.x) * across_.count + across;
+void FrictionWork::add_to_places(Vec3 place, double work) noexcept {
+  const PlaceAxis::Share along = along_.share_of(place.x), across = across_.share_of(place.z);
+  const Parts of_rows = parted(work, along.behind);
+  for (const std::size_t behind : {0U, 1U}) {
+    const double of_row = behind == 0 ? of_rows.rest : of_rows.part;
+    if (of_row == 0.0) continue;
+    const std::size_t place_before =
+        tributary_.size() + (along.before + behind) * across_.count + across.before;
+    const Parts of_place = parted(of_row, across.behind);
+    sums_.add(place_before, of_place.rest);
+    if (of_place.part != 0.0) sums_.add(place_before + 1, of_place.part);
+  }
 }
 
 void FrictionWork::add(Vec3 place, std::span<const ActiveContact> contacts) noexcept {
@@ -96,7 +118,7 @@ void FrictionWork::add(Vec3 place, std::span<const ActiveContact> contacts) noex
     const double work = friction_work_of(c);
     if (work == 0.0) continue;
     sums_.add(c.candidate, work);
-    if (has_places_) sums_.add(place_of(place), work);
+    if (has_places_) add_to_places(place, work);
   }
 }
 
@@ -124,8 +146,12 @@ std::vector<double> FrictionWork::by_node() const {
 
 std::vector<double> FrictionWork::by_place() const {
   std::vector<double> work(sums_.size() - tributary_.size());
-  const double size = along_.width * (across_.count > 1 ? across_.width : 1.0);
-  for (std::size_t i = 0; i < work.size(); ++i) work[i] = sums_.at(tributary_.size() + i) / size;
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    const std::size_t k = i % across_.count;
+    const bool at_side = k == 0 || k + 1 == across_.count;
+    const double width = across_.count < 2 ? 1.0 : (at_side ? 0.5 : 1.0) * across_.distance;
+    work[i] = sums_.at(tributary_.size() + i) / (along_.distance * width);
+  }
   return work;
 }
 

@@ -2,7 +2,7 @@
 /// @file  Where friction takes energy during a run: by contact candidate, and by place in the
 /// footprint (docs/wear.md). The integrators add the contacts of every step; threads may do so at
 /// the same time, in any order, with the same bits. Each amount is rounded once and added to both,
-/// so that the sum over the candidates and that over the places are the same number.
+/// so that the sum over the candidates and that over the places agree to the last bits.
 #pragma once
 #include <cstddef>
 #include <span>
@@ -13,16 +13,21 @@
 
 namespace rondo::dynamics {
 
-/// Equal intervals of a coordinate from the center of the wheel. The first and the last one also
-/// have what is beyond them.
+/// Places at equal distances along a coordinate from the center of the wheel. What is between two
+/// of them belongs to both, by its distance; the first and the last one have what is beyond them.
 struct PlaceAxis {
-  double from = 0.0;   ///< where the first interval begins                             [m]
-  double width = 1.0;  ///< of each interval                                            [m]
+  double first = 0.0;     ///< coordinate of the first place                              [m]
+  double distance = 1.0;  ///< of two places                                            [m]
   std::size_t count = 1;
 
-  [[nodiscard]] std::size_t interval_of(double x) const noexcept;
-  /// (count) middles of the intervals                                                    [m]
-  [[nodiscard]] std::vector<double> middles() const;
+  /// The place at or before x with another one behind it, and how much of x belongs to that.
+  struct Share {
+    std::size_t before = 0;
+    double behind = 0.0;  ///< 0 to 1                                                    [-]
+  };
+  [[nodiscard]] Share share_of(double x) const noexcept;
+  /// (count) the coordinates of the places                                               [m]
+  [[nodiscard]] std::vector<double> places() const;
 };
 
 /// The work that friction takes in one contact in the step just made, as the energy ledger has it;
@@ -35,9 +40,9 @@ struct PlaceAxis {
 
 class FrictionWork {
  public:
-  /// Places are as long as the mean distance of the candidates around the wheel, and cover as much
+  /// Places are as far apart as the candidates around the wheel are in the mean, and cover as much
   /// as its radius ahead and behind; in three dimensions there are as many across as candidates at
-  /// one angle, most_across at the most. Free bodies have no wheel, and so no places.
+  /// one angle, most_across at the most, from one side of the tread to the other. Free bodies have no wheel, and so no places.
   /// @pre has_candidates(model)
   explicit FrictionWork(const Model& model);
 
@@ -58,7 +63,8 @@ class FrictionWork {
 
   /// (nb) work over the tributary length or area of the candidate                      [J/m²]
   [[nodiscard]] std::vector<double> by_node() const;
-  /// (along, across) work over the length or area of the place                         [J/m²]
+  /// (along, across) work over the length or area of the place, which is half of the others at
+  /// both sides of the tread                                                           [J/m²]
   [[nodiscard]] std::vector<double> by_place() const;
   /// Sum over the candidates                                                       [J/m], [J]
   [[nodiscard]] double total() const;
@@ -72,7 +78,7 @@ class FrictionWork {
   void clear() noexcept { sums_.clear(); }
 
  private:
-  [[nodiscard]] std::size_t place_of(Vec3 place) const noexcept;
+  void add_to_places(Vec3 place, double work) noexcept;
 
   const std::vector<double> tributary_;  ///< (nb)                                 [m], [m²]
   const bool has_places_;

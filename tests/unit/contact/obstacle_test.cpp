@@ -63,6 +63,13 @@ TEST(Obstacle, AtAPointOfTheProfileItIsThere) {
   EXPECT_TRUE(obstacle_faults(flat, two).empty());
   EXPECT_EQ(with_obstacles(flat, two).profile.size(), 6u) << "they touch: it is one";
   EXPECT_EQ(with_obstacles(ledge, {}).profile, ledge.profile);
+  // u - 0.5 of the rows of a road is not x of a case, by round-off.
+  const GroundShape rows{.profile = {{-1, 0}, {0.8 - 0.5, 0}, {1, 0}}};
+  const std::vector<Obstacle> bar{
+      {.kind = cleat, .at = 0.3, .height = 0.01, .length = 0.1, .fillet = 0.002}};
+  ASSERT_NE(rows.profile[1].x, bar[0].at);
+  EXPECT_EQ(with_obstacles(rows, bar).profile.size(), 6u);
+  EXPECT_TRUE(shape_faults(with_obstacles(rows, bar)).empty());
 }
 
 TEST(Obstacle, WhatIsNoneIsRefused) {

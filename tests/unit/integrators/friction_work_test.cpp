@@ -87,8 +87,12 @@ Found run(Model model, const std::vector<Vec2>& u, const std::vector<Vec2>& v, i
   const std::vector<double>& tributary =
       model.contact ? model.contact->tributary : model.surfaces->tributary;
   f.by_nodes = sum_over(f.nodes, [&](std::size_t k) { return tributary[k]; });
-  const double size = work.along().width * (model.solid ? work.across().width : 1.0);
-  f.by_places = sum_over(f.places, [&](std::size_t) { return size; });
+  const std::size_t across = work.across().count;
+  f.by_places = sum_over(f.places, [&](std::size_t i) {
+    const bool at_side = i % across == 0 || i % across + 1 == across;
+    const double width = model.solid ? (at_side ? 0.5 : 1.0) * work.across().distance : 1.0;
+    return work.along().distance * width;
+  });
   return f;
 }
 
@@ -228,18 +232,45 @@ TEST(FrictionWork, OfBodiesIsSharedByBoth) {
   expect_near(readable.nodes, fused.nodes);
 }
 
-TEST(FrictionWork, PlacesHaveEndsThatTakeTheRest) {
-  const PlaceAxis axis{-1.0, 0.5, 4};
-  EXPECT_EQ(axis.middles(), (std::vector<double>{-0.75, -0.25, 0.25, 0.75}));
-  for (const auto& [x, at] : {std::pair{-5.0, 0U},
-                              {-1.0, 0U},
-                              {-0.6, 0U},
-                              {-0.4, 1U},
-                              {0.1, 2U},
-                              {0.9, 3U},
-                              {1.0, 3U},
-                              {7.0, 3U}})
-    EXPECT_EQ(axis.interval_of(x), at) << x;
+TEST(FrictionWork, WhatIsBetweenTwoPlacesBelongsToBoth) {
+  const PlaceAxis axis{-0.75, 0.5, 4};
+  EXPECT_EQ(axis.places(), (std::vector<double>{-0.75, -0.25, 0.25, 0.75}));
+  struct Row {
+    double x;
+    std::size_t before;
+    double behind;
+  };
+  for (const auto& [x, before, behind] : {Row{-5.0, 0, 0.0}, {-0.75, 0, 0.0}, {-0.5, 0, 0.5},
+                                          {-0.25, 1, 0.0}, {0.0, 1, 0.5}, {0.625, 2, 0.75},
+                                          {0.75, 2, 1.0}, {7.0, 2, 1.0}}) {
+    EXPECT_EQ(axis.share_of(x).before, before) << x;
+    EXPECT_EQ(axis.share_of(x).behind, behind) << x;
+  }
+  EXPECT_EQ(PlaceAxis{}.share_of(3.0).behind, 0.0) << "one place has all";
+}
+
+/// A row of nodes that is shifted by some of the distance of two rows does not jump from one place
+/// to the other, and the sides of the tread are as dense as the nodes there.
+TEST(FrictionWork, PlacesAreAsDenseAsTheNodes) {
+  const Model model = wheel(mesh::make_wheel(test::box_wheel(3, 4, 90)), false);
+  FrictionWork work(model);
+  const std::vector<double> z = work.across().places();
+  for (const double shift : {0.0, 0.4, 0.5, 0.6}) {
+    work.clear();
+    for (std::size_t row = 0; row < z.size(); ++row) {
+      const double share = row == 0 || row + 1 == z.size() ? 0.5 : 1.0;  // of the area
+      ActiveContact c;
+      c.before = c.after = {0.0, -1.0, 0.0};
+      c.impulse = {1.0, share, 0.0};
+      work.add({0.0, 0.0, z[row] + shift * work.across().distance}, {&c, 1});
+    }
+    work.settle();
+    const std::vector<double> places = work.by_place();
+    const std::size_t row = places.size() / z.size() / 2 * z.size();
+    for (std::size_t k = 1; k + 2 < z.size(); ++k)
+      EXPECT_NEAR(places[row + k + 1], places[row + k], 0.51 * shift * places[row + k]) << shift;
+    if (shift == 0.0) EXPECT_NEAR(places[row], places[row + 1], 1e-12 * places[row]);
+  }
 }
 
 /// As long as the nodes are apart, out to the radius, both ways.
@@ -247,12 +278,12 @@ TEST(FrictionWork, PlacesFollowTheNodes) {
   const test::Built b = test::build(test::everything("", 6, 90));
   const FrictionWork plane(b.model);
   EXPECT_EQ(plane.along().count, 29U);  // 90/π
-  EXPECT_NEAR(plane.along().middles().front(), -plane.along().middles().back(), 1e-15);
+  EXPECT_NEAR(plane.along().places().front(), -plane.along().places().back(), 1e-15);
   EXPECT_EQ(plane.across().count, 1U);
   const FrictionWork space(wheel(mesh::make_wheel(test::box_wheel(3, 4, 90)), false));
   EXPECT_EQ(space.along().count, 29U);
   ASSERT_EQ(space.across().count, 5U);
-  const std::vector<double> z = space.across().middles();
+  const std::vector<double> z = space.across().places();
   EXPECT_NEAR(z.front(), -0.05, 1e-15);
   EXPECT_NEAR(z.back(), 0.05, 1e-15);
 }
