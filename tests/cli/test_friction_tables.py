@@ -217,6 +217,64 @@ class Swept(ProgramTest):
             self.assertEqual(sum(np.array_equal(a, b) for b in (*given, *plain)), 1)
 
 
+CRUSH = ("analysis.kind=crush", "analysis.depth=0.005", "analysis.slide=0.004", "analysis.increments=3",
+         "analysis.slide_increments=3", "ground.profile=flat")
+ICE = "ground.patch=[{from = %s, to = %s, factor = 0.1}]"
+
+
+class Crushed(RunTest):
+    """Crushes by increments: pressure and place in the increment before."""
+    text = SMALL
+
+    def crushed(self, *given, text=SMALL):
+        self.run_ok(text, "--quiet", "--overwrite", *settings(*CRUSH, *given))
+        s = summary(self.out)
+        self.assertLess(s["energy_residual_relative"], 1e-11)
+        self.assertLess(s["contact_residual_max"], 1e-10)
+        return history(self.out)
+
+    def test_pressures_below_a_tenth_of_the_reference_count_as_that(self):
+        exponent = "ground.friction={coefficient = 0.1, pressure_exponent = -0.2, pressure_reference = 1e12}"
+        for text in (SMALL, WHEEL3D):
+            tabled = self.crushed(exponent, text=text)
+            number = self.crushed(f"ground.friction={0.1 * 0.1 ** -0.2!r}", text=text)
+            for name in ("force_x", "force_y", "torque", "dissipation_friction"):
+                size = np.abs(number["force_y"]).max()
+                np.testing.assert_allclose(tabled[name], number[name], rtol=0, atol=1e-9 * size, err_msg=name)
+            other = self.crushed("ground.friction=0.1", text=text)
+            self.assertGreater(abs(tabled["force_x"][-1] - other["force_x"][-1]), 0.1 * abs(other["force_x"][-1]))
+
+    def test_it_slides_onto_ice(self):
+        for text in (SMALL, WHEEL3D):
+            dry, icy = self.crushed("ground.friction=0.1", text=text), self.crushed("ground.friction=0.01", text=text)
+            onto = self.crushed("ground.friction=0.1", ICE % (-1, 1), text=text)
+            for name in ("force_x", "force_y"):
+                np.testing.assert_allclose(onto[name], icy[name], rtol=0, atol=1e-9 * icy["force_y"].max())
+            half = self.crushed("ground.friction=0.1", ICE % (0, 1), text=text)
+            self.assertLess(half["force_x"][-1], 0.9 * icy["force_x"][-1])
+            self.assertGreater(half["force_x"][-1], 0.9 * dry["force_x"][-1])
+
+    def test_ice_on_the_left_turns_it_to_the_right(self):
+        def drawn(side):
+            return self.crushed("ground.friction=0.1", f"ground.patch=[{{from = -1, to = 1, side = '{side}', "
+                                                       "factor = 0.1}]", text=WHEEL3D)
+        left, right = drawn("left"), drawn("right")
+        for name in ("force_lateral", "moment_aligning"):
+            size = np.abs(left[name]).max()
+            self.assertGreater(size, 1e-3)
+            self.assertLess(np.abs(left[name] + right[name]).max(), 1e-8 * np.abs(left["force_y"]).max())
+        self.assertLess(left["moment_aligning"][-1], 0.0)
+
+    def test_the_case_that_it_wrote_gives_the_same(self):
+        exponent = "ground.friction={coefficient = 0.3, pressure_exponent = -0.2, pressure_reference = 2e5}"
+        first = self.crushed(exponent, ICE % (0, 1))
+        again = self.folder / "again"
+        done = run("run", self.out / "case.toml", "-o", again, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for name, column in history(again).items():
+            np.testing.assert_array_equal(column, first[name], err_msg=name)
+
+
 class Refused(ProgramTest):
     def refused(self, command, *given, text=SMALL):
         done = run(*command, self.case(text), *settings(*given))
@@ -224,17 +282,18 @@ class Refused(ProgramTest):
         return done.stderr
 
     def test_steps_and_analyses_that_take_one_coefficient_say_so(self):
-        crush = ("analysis.kind=crush", "analysis.depth=0.005", "analysis.increments=3")
-        for given, said in ((crush, "a crush takes one coefficient"),
-                            ((*crush, "analysis.solver=latin"), "a crush takes one coefficient"),
+        for given, said in ((CRUSH, "so slow that it has no slip speed"),
+                            ((*CRUSH, "analysis.solver=latin"), "LATIN solves all increments at once with one"),
                             (("time.scheme=hati", "solver.hati.ratio=2", "solver.hati.fine.layers=[3]"),
                              "one coefficient of friction for all contacts")):
             with self.subTest(said):
                 told = self.refused(["check"], RUBBER, *given)
                 self.assertIn("ground.friction", told)
                 self.assertIn(said, told)
-        steady, start = "analysis.kind=steady-rolling", "initial.state=steady-rolling"
-        for given in (crush, (steady, "motion.height=0.296"), (start, "motion.height=0.296")):
+        self.assertIn("ground.friction.slip_speed", self.refused(["check"], RUBBER, PATCH, *CRUSH))
+        self.assertIn("ground.patch", self.refused(["check"], PATCH, *CRUSH, "analysis.solver=latin-pgd"))
+        for given in (("analysis.kind=steady-rolling", "motion.height=0.296"),
+                      ("initial.state=steady-rolling", "motion.height=0.296")):
             self.assertIn("ground.patch", self.refused(["check"], PATCH, *given))
 
     def test_standing_and_reduced_wheels_say_so(self):

@@ -39,7 +39,7 @@ void sweep(const CondensedProblem& p, Eigen::VectorXd& r, Findings& found) {
                              g(n, n),
                              g(n, t),
                              g(t, t)};
-    const contact::LocalSolution local = solve_block(block, p.friction);
+    const contact::LocalSolution local = solve_block(block, p.friction[at(j)]);
     r[n] = local.impulse.x;
     r[t] = local.impulse.y;
     const bool slips = local.status == Status::slip;
@@ -60,7 +60,7 @@ Eigen::VectorXd solve_directly(const CondensedProblem& p, const Findings& found)
   if (rows.empty()) return r;
   const auto edge = [&](Index row) {  // μ with its sign where the row's candidate slips
     const Finding& f = found[at(row / 2)];
-    return f.status == Status::slip ? f.side * p.friction : 0.0;
+    return f.status == Status::slip ? f.side * p.friction[at(row / 2)] : 0.0;
   };
   const auto size = static_cast<Index>(rows.size());
   Eigen::MatrixXd a(size, size);
@@ -82,6 +82,12 @@ double residual_of(const CondensedProblem& p, const Eigen::VectorXd& r) {
   return condensed_residual(p, r, p.free + p.compliance * r);
 }
 
+Eigen::VectorXd coefficients(const CandidateFriction& of, Index m) {
+  Eigen::VectorXd all(m);
+  for (Index j = 0; j < m; ++j) all[j] = of[at(j)];
+  return all;
+}
+
 /// Looks whether the findings, or the forces as swept, are the solution; keeps the better ones.
 void look(const CondensedProblem& p, const Findings& found, Eigen::VectorXd& r,
           CondensedReport& report) {
@@ -96,14 +102,14 @@ void look(const CondensedProblem& p, const Findings& found, Eigen::VectorXd& r,
 
 /// What the basis of (6.4f) says of each candidate. Where r_n is basic and none of its slacks is,
 /// r_n is zero: open.
-Findings findings_of(const LcpSolution& lcp, double friction) {
+Findings findings_of(const LcpSolution& lcp, const CandidateFriction& friction) {
   const std::size_t m = lcp.basic.size() / 3;
   Findings found(m);
   for (std::size_t j = 0; j < m; ++j) {
     const bool off_lower = lcp.basic[m + j] != 0, off_upper = lcp.basic[2 * m + j] == 0;
     if (lcp.basic[j] == 0 || (!off_lower && !off_upper)) continue;
     found[j].side = off_lower ? 1.0 : -1.0;
-    found[j].status = off_lower && off_upper && friction > 0.0 ? Status::stick : Status::slip;
+    found[j].status = off_lower && off_upper && friction[j] > 0.0 ? Status::stick : Status::slip;
   }
   return found;
 }
@@ -123,7 +129,7 @@ void pivot(const CondensedProblem& p, Eigen::VectorXd& r, Findings& found,
   Eigen::VectorXd pivoted(2 * m);
   for (Index j = 0; j < m; ++j) {
     const double normal = form.force * lcp.z[j], lower = form.force * lcp.z[m + j];
-    pivoted.segment<2>(2 * j) << normal, lower - p.friction * normal;
+    pivoted.segment<2>(2 * j) << normal, lower - p.friction[at(j)] * normal;
   }
   const double swept = report.residual;
   const Findings of_basis = findings_of(lcp, p.friction);
@@ -160,7 +166,7 @@ double condensed_residual(const CondensedProblem& p, const Eigen::VectorXd& r,
   for (Index j = 0; j < r.size() / 2; ++j) {
     const double stiffness = 1.0 / p.compliance(2 * j, 2 * j);
     const double residual =
-        contact::law_residual(vec2_at(r, j), vec2_at(w, j), 0.0, p.friction, stiffness);
+        contact::law_residual(vec2_at(r, j), vec2_at(w, j), 0.0, p.friction[at(j)], stiffness);
     if (!std::isfinite(residual)) return residual;
     largest = std::max(largest, residual);
     force = std::max(force, norm(vec2_at(r, j)));
@@ -181,19 +187,21 @@ ComplementaryForm make_complementary(const CondensedProblem& p) {
   const Eigen::MatrixXd nt = p.compliance(normal, tangential) / compliance,
                         tn = p.compliance(tangential, normal) / compliance,
                         tt = p.compliance(tangential, tangential) / compliance;
-  matrix.topLeftCorner(m, m) = p.compliance(normal, normal) / compliance - p.friction * nt;
+  const Eigen::VectorXd friction = coefficients(p.friction, m);
+  const auto edge = friction.asDiagonal();
+  matrix.topLeftCorner(m, m) = p.compliance(normal, normal) / compliance - nt * edge;
   matrix.block(0, m, m, m) = nt;
-  matrix.block(m, 0, m, m) = tn - p.friction * tt;
+  matrix.block(m, 0, m, m) = tn - tt * edge;
   matrix.block(m, m, m, m) = tt;
   matrix.block(m, 2 * m, m, m).setIdentity();
-  matrix.bottomLeftCorner(m, m).diagonal().setConstant(2.0 * p.friction);
+  matrix.bottomLeftCorner(m, m).diagonal() = 2.0 * friction;
   matrix.block(2 * m, m, m, m).diagonal().setConstant(-1.0);
   f.lcp.q = Eigen::VectorXd::Zero(3 * m);
   f.lcp.q.head(m) = p.free(normal) / f.length;
   f.lcp.q.segment(m, m) = p.free(tangential) / f.length;
   // With the normal part at least μ times the tangential one there is no ray (6.4).
   f.lcp.cover = Eigen::VectorXd::Ones(3 * m);
-  f.lcp.cover.segment(m, m).setConstant(1.0 / std::max(1.0, p.friction));
+  f.lcp.cover.segment(m, m) = friction.cwiseMax(1.0).cwiseInverse();
   return f;
 }
 
@@ -201,7 +209,7 @@ CondensedReport solve_condensed(const CondensedProblem& p, const CondensedLimits
                                 CondensedSolution& solution) {
   const Index size = p.free.size();
   RONDO_DEMAND(p.compliance.rows() == size && p.compliance.cols() == size &&
-                   solution.force.size() == size && size % 2 == 0,
+                   solution.force.size() == size && size % 2 == 0 && p.friction.suits(at(size / 2)),
                p.compliance.rows(), p.compliance.cols(), solution.force.size(), size);
   CondensedReport report;
   Findings found(static_cast<std::size_t>(size / 2)), looked_at;

@@ -8,6 +8,7 @@
 /// (Klarbring, Ing.-Arch. 60 (1990) 529).
 #pragma once
 #include <Eigen/Core>
+#include <utility>
 #include <vector>
 
 #include "rondo/contact/law.hpp"
@@ -16,11 +17,32 @@
 
 namespace rondo::statics {
 
+/// The coefficient of friction μ >= 0 of each candidate.
+class CandidateFriction {
+ public:
+  CandidateFriction(double all) noexcept : all_(all) {}  // NOLINT(*-explicit-*): a constant is one
+  /// @param each (m)
+  explicit CandidateFriction(std::vector<double> each) noexcept : each_(std::move(each)) {}
+
+  /// @pre candidate < m
+  [[nodiscard]] double operator[](std::size_t candidate) const noexcept {
+    return each_.empty() ? all_ : each_[candidate];
+  }
+  /// Whether there is a coefficient for each of m candidates.
+  [[nodiscard]] bool suits(std::size_t m) const noexcept {
+    return each_.empty() || each_.size() == m;
+  }
+
+ private:
+  double all_ = 0.0;
+  std::vector<double> each_;  ///< empty: all have the same
+};
+
 /// Rows 2j, 2j + 1 of a vector are candidate j of m.
 struct CondensedProblem {
   const Eigen::MatrixXd& compliance;  ///< (2m, 2m) G = H K⁻¹ Hᵀ, symmetric and positive [m²/N]
   Eigen::VectorXd free;               ///< (2m) gap and slip without any force           [m]
-  double friction = 0.0;              ///< μ >= 0                                        [-]
+  CandidateFriction friction = 0.0;   ///< μ_j                                           [-]
 };
 
 struct CondensedSolution {
@@ -68,7 +90,7 @@ double condensed_residual(const CondensedProblem& problem, const Eigen::VectorXd
 
 /// The law as a linear complementarity problem without units (6.4f): forces over `force`, gaps and
 /// slips over `length`; z = (r_n, r_t + μ r_n, backward slip), y = (gap, forward slip, μ r_n -
-/// r_t). The compliance need not be symmetric here.
+/// r_t), with the μ of each candidate. The compliance need not be symmetric here.
 struct ComplementaryForm {
   Lcp lcp;              ///< of 3m
   double length = 0.0;  ///< largest |free| [m]

@@ -35,7 +35,7 @@ CondensedProblem make_problem(const CrushModel& model, const Trial& trial, const
                               const CrushState& state) {
   const auto& set = body.set();
   CondensedProblem p{body.compliance(), Eigen::VectorXd(static_cast<Index>(2 * set.size())),
-                     model.friction.constant()};
+                     friction_from(model, state, set)};
   for (std::size_t j = 0; j < set.size(); ++j) {
     p.free[static_cast<Index>(2 * j)] = model.clearance[set[j]] - trial.depth;
     p.free[static_cast<Index>(2 * j + 1)] =
@@ -105,6 +105,21 @@ CrushState accept(const CrushModel& model, const Condensation& body, const Crush
 
 }  // namespace
 
+CandidateFriction friction_from(const CrushModel& model, const CrushState& state,
+                                std::span<const std::size_t> set) {
+  if (model.friction.is_constant()) return model.friction.constant();
+  RONDO_DEMAND(model.extent.size() == model.nodes.size(), model.extent.size(), model.nodes.size());
+  std::vector<double> each;
+  for (const std::size_t k : set) {
+    const Vec2 u = state.u[at(model.nodes[k])];
+    const contact::SlidingState of{
+        .place = {model.reference[k].x + u.x + state.slide, 0.0, 0.0},
+        .pressure = model.extent[k] > 0.0 ? state.force[k].x / model.extent[k] : 0.0};
+    each.push_back(model.friction.coefficient(of));
+  }
+  return CandidateFriction(std::move(each));
+}
+
 CrushState next_state(const CrushModel& model, const CrushState& before, CrushEquilibrium found) {
   CrushState next = before;
   next.depth = found.depth;
@@ -148,7 +163,10 @@ CrushModel make_crush_model(std::span<const Vec2> reference, std::span<const int
   model.friction = std::move(friction);
   double lowest = std::numeric_limits<double>::infinity();
   for (const int node : nodes) lowest = std::min(lowest, reference[at(node)].y);
-  for (const int node : nodes) model.clearance.push_back(reference[at(node)].y - lowest);
+  for (const int node : nodes) {
+    model.clearance.push_back(reference[at(node)].y - lowest);
+    model.reference.push_back(reference[at(node)]);
+  }
   return model;
 }
 

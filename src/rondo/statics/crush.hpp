@@ -23,7 +23,11 @@ namespace rondo::statics {
 struct CrushModel {
   std::vector<int> nodes;         ///< (nb) candidates
   std::vector<double> clearance;  ///< (nb) gap of the undeformed body at first touch, >= 0  [m]
-  contact::Friction friction;     ///< a constant: pivoting takes one μ for all candidates
+  std::vector<Vec2> reference;    ///< (nb) place of the undeformed body, from the center    [m]
+  contact::Friction friction;     ///< no function of the slip speed: a crush has no time
+  /// (nb) length of the undeformed boundary that belongs to a candidate, which its pressure is
+  /// over; empty: friction is constant [m]
+  std::vector<double> extent;
   CondensedLimits limits;
   double bound = 1e-10;  ///< of the final residual, computed from the whole field          [-]
 };
@@ -67,6 +71,12 @@ struct CrushEquilibrium {
   std::vector<contact::Status> status;  ///< (nb)
   double strain = 0.0;                  ///< ½ uᵀ K u [J/m]
 };
+
+/// μ of some candidates in an increment from a state on: that of their pressure and place in it.
+/// The slip speed counts as 0. @param set candidates
+/// @pre the model has extents, unless friction is constant
+[[nodiscard]] CandidateFriction friction_from(const CrushModel& model, const CrushState& state,
+                                              std::span<const std::size_t> set);
 
 /// The state that follows, its works by mean forces of the increment (6.4e).
 [[nodiscard]] CrushState next_state(const CrushModel& model, const CrushState& before,

@@ -59,7 +59,7 @@ void RubberCrush::solve_contact(Trial& trial, const Condensation& tangent,
                                 const std::vector<Vec2>& rest, const CrushState& state,
                                 CrushReport& report) {
   CondensedProblem p{tangent.compliance(), Eigen::VectorXd(static_cast<Index>(2 * set_.size())),
-                     model_.friction.constant()};
+                     friction_from(model_, state, set_)};
   const auto slip_of = [&](std::size_t k, Vec2 u) {
     const std::size_t node = at(model_.nodes[k]);
     const Vec2 now = in_contact_frame(u), before = in_contact_frame(state.u[node]);

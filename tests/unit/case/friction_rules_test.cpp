@@ -130,6 +130,20 @@ TEST(FrictionOfTheGround, AnalysesRefuseWhatTheyCannotTake) {
   EXPECT_EQ(refused({"ground.friction={coefficient = 0.5, slip_speed = [[0, 1.1], [1, 1.1]]}"}),
             "");
   EXPECT_EQ(refused({patch, "ground.friction=0"}), "");
+  const auto crushed = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"analysis.kind=crush", "analysis.depth=0.01",
+                               "analysis.increments=2", "ground.profile=flat", "ground.fillet=0"});
+    return faults(tabled, more);
+  };
+  const std::string no_slip = "ground.friction.slip_speed=[[0, 1.1], [1, 1.1]]";
+  EXPECT_EQ(crushed({}).substr(0, 46), "ground.friction.slip_speed: a crush is so slow");
+  EXPECT_EQ(crushed({patch}).substr(0, 46), "ground.friction.slip_speed: a crush is so slow");
+  EXPECT_EQ(crushed({patch, no_slip}), "");
+  EXPECT_EQ(crushed({patch, "ground.friction=0.5"}), "");
+  EXPECT_EQ(crushed({no_slip, "analysis.solver=latin"}).substr(0, 33),
+            "ground.friction: LATIN solves all");
+  EXPECT_EQ(crushed({patch, "ground.friction=0.5", "analysis.solver=latin-pgd"}).substr(0, 33),
+            "ground.patch[0]: LATIN solves all");
   EXPECT_NE(faults(tabled, {"time.scheme=hati"}).find("ground.friction: "), std::string::npos);
 }
 

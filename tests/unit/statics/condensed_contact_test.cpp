@@ -9,6 +9,7 @@
 #include <random>
 
 #include "rondo/contact/residual.hpp"
+#include "rondo/core/index.hpp"
 #include "rondo/statics/lemke.hpp"
 
 namespace condensed_contact_test {
@@ -51,10 +52,18 @@ Eigen::VectorXd of_choice(const statics::CondensedProblem& p, int choice) {
       a.row(t) = p.compliance.row(t);
       b[t] = -p.free[t];
     } else {
-      a(t, n) = status == 2 ? -p.friction : p.friction;
+      a(t, n) = (status == 2 ? -1.0 : 1.0) * p.friction[at(j)];
     }
   }
   return a.partialPivLu().solve(b);
+}
+
+/// From 0 to twice `mean`, other ones for each candidate.
+statics::CandidateFriction mixed_friction(Index m, double mean, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> uniform(0.0, 2.0 * mean);
+  std::vector<double> each;
+  for (Index j = 0; j < m; ++j) each.push_back(j == 0 ? 0.0 : uniform(random));
+  return statics::CandidateFriction(std::move(each));
 }
 
 }  // namespace
@@ -109,6 +118,49 @@ TEST(SolveCondensed, FindsWhatEnumerationFinds) {
   }
   EXPECT_GT(slipping, 100);
   EXPECT_GT(sticking, 50);
+}
+
+/// Each candidate has a coefficient of its own, and by the others' the forces are no solution.
+TEST(SolveCondensed, HasTheCoefficientOfEachCandidate) {
+  std::mt19937_64 random(21);
+  int by_others = 0;
+  for (int k = 0; k < 100; ++k) {
+    constexpr Index m = 4;
+    const Eigen::MatrixXd g = random_compliance(m, random);
+    statics::CondensedProblem p{g, random_free(m, random), mixed_friction(m, 0.4, random)};
+    statics::CondensedSolution s{Eigen::VectorXd::Zero(2 * m), {}};
+    ASSERT_TRUE(statics::solve_condensed(p, {}, s).converged) << k;
+    int solutions = 0;
+    for (int choice = 0; choice < 256; ++choice) {
+      const Eigen::VectorXd r = of_choice(p, choice);
+      if (statics::condensed_residual(p, r, p.free + g * r) > 1e-10) continue;
+      ++solutions;
+      EXPECT_LT((r - s.force).norm(), 1e-9) << k;  // residual 1e-10 times a condition of 10
+    }
+    EXPECT_GE(solutions, 1) << k;
+    p.friction = 0.4;
+    by_others += statics::condensed_residual(p, s.force, p.free + g * s.force) > 1e-6 ? 1 : 0;
+  }
+  EXPECT_GT(by_others, 50);
+}
+
+TEST(SolveCondensed, EqualCoefficientsGiveTheBitsOfAConstant) {
+  std::mt19937_64 random(22);
+  const Eigen::MatrixXd g = random_compliance(30, random);
+  const Eigen::VectorXd free = random_free(30, random);
+  const statics::CondensedProblem one{g, free, 0.4},
+      each{g, free, statics::CandidateFriction(std::vector<double>(30, 0.4))};
+  for (const int before_pivoting : {300, 1}) {
+    const statics::CondensedLimits limits{.tolerance = 1e-12,
+                                          .sweeps_before_pivoting = before_pivoting};
+    statics::CondensedSolution a{Eigen::VectorXd::Zero(60), {}}, b = a;
+    const auto report = statics::solve_condensed(one, limits, a);
+    EXPECT_TRUE(report.converged);
+    EXPECT_EQ(report.pivots > 0, before_pivoting == 1);
+    EXPECT_TRUE(statics::solve_condensed(each, limits, b).converged);
+    EXPECT_EQ(a.force, b.force);
+    EXPECT_EQ(a.status, b.status);
+  }
 }
 
 TEST(SolveCondensed, StartsFromTheSolutionInOneLook) {
@@ -187,8 +239,8 @@ TEST(Pivoting, FindsWhatEnumerationFinds) {
     Eigen::VectorXd r(2 * m);
     for (Index j = 0; j < m; ++j) {
       r[2 * j] = form.force * lcp.z[j];
-      r[2 * j + 1] = form.force * lcp.z[m + j] - p.friction * r[2 * j];
-      const double edge = p.friction * r[2 * j] - std::abs(r[2 * j + 1]);
+      r[2 * j + 1] = form.force * lcp.z[m + j] - p.friction[at(j)] * r[2 * j];
+      const double edge = p.friction[at(j)] * r[2 * j] - std::abs(r[2 * j + 1]);
       slipping += r[2 * j] > 0.0 && edge < 1e-9 ? 1 : 0;
       sticking += edge > 1e-9 ? 1 : 0;
     }
@@ -198,6 +250,32 @@ TEST(Pivoting, FindsWhatEnumerationFinds) {
   }
   EXPECT_GT(slipping, 100);
   EXPECT_GT(sticking, 50);
+}
+
+/// The pivoting alone, with a coefficient of each candidate, small and large: a solution of the
+/// complementary form is one of the law.
+TEST(Pivoting, HasTheCoefficientOfEachCandidate) {
+  std::mt19937_64 random(23);
+  for (int k = 0; k < 60; ++k) {
+    constexpr Index m = 20;
+    const Eigen::MatrixXd g =
+        random_compliance(m, random) - 0.9 * Eigen::MatrixXd::Identity(2 * m, 2 * m);
+    const statics::CondensedProblem p{g, random_free(m, random),
+                                      mixed_friction(m, k % 2 == 0 ? 0.4 : 5.0, random)};
+    const statics::ComplementaryForm form = statics::make_complementary(p);
+    statics::LcpSolution lcp;
+    ASSERT_EQ(statics::solve_lemke(form.lcp, 5000, lcp).end, statics::LemkeEnd::solved) << k;
+    Eigen::VectorXd r(2 * m);
+    for (Index j = 0; j < m; ++j) {
+      r[2 * j] = form.force * lcp.z[j];
+      r[2 * j + 1] = form.force * lcp.z[m + j] - p.friction[at(j)] * r[2 * j];
+    }
+    EXPECT_LT(statics::condensed_residual(p, r, p.free + g * r), 1e-8) << k;
+    statics::CondensedSolution s{Eigen::VectorXd::Zero(2 * m), {}};
+    EXPECT_TRUE(
+        statics::solve_condensed(p, {.tolerance = 1e-10, .sweeps_before_pivoting = 1}, s).converged)
+        << k;
+  }
 }
 
 /// Much friction: the sweeps may cycle, and there may be several solutions, but there always is one

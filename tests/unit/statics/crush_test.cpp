@@ -7,6 +7,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "rondo/contact/friction_table.hpp"
 #include "rondo/contact/residual.hpp"
 #include "rondo/mesh/disk.hpp"
 
@@ -41,14 +42,22 @@ struct Ran {
   std::vector<statics::CrushReport> reports;
 };
 
-Ran run(const Pressed& p, double depth, int increments, double reach) {
+Pressed with_table(contact::FrictionTable table) {
+  Pressed p = make(0.0);
+  p.model.friction = contact::friction_of(std::move(table));
+  p.model.extent = p.mesh.tributary;
+  return p;
+}
+
+/// @param slide in all [m]
+Ran run(const Pressed& p, double depth, int increments, double reach, double slide = 0.0) {
   statics::Condensation body(p.k, p.free, p.model.nodes);
   statics::append_within(p.model, reach, body);
   Ran out{{statics::start_crush(p.model, p.mesh.n_nodes())}, {}};
   for (int k = 1; k <= increments; ++k) {
     out.states.push_back(out.states.back());
-    out.reports.push_back(
-        statics::bring_to(p.model, depth * k / increments, 0.0, body, out.states.back()));
+    out.reports.push_back(statics::bring_to(p.model, depth * k / increments, slide * k / increments,
+                                            body, out.states.back()));
     EXPECT_TRUE(out.reports.back().converged) << k << ": " << out.reports.back().residual;
   }
   return out;
@@ -245,6 +254,86 @@ TEST(Crush, ASetThatIsTooSmallGrows) {
   for (const auto& report : wide.reports) EXPECT_EQ(report.appended, 0U);
   for (std::size_t k = 0; k < p.model.nodes.size(); ++k)
     EXPECT_LT(norm(wide.states[4].force[k] - narrow.states[4].force[k]), 1e-8);  // N/m, of 1e4
+}
+
+/// Ice under the right half or under the left: mirrored, and not the same as ice under nothing.
+TEST(CrushFriction, PatchesUnderEitherHalfAreMirrored) {
+  const contact::FrictionTable dry{.coefficient = 0.1, .slip = {}, .patches = {}};
+  contact::FrictionTable behind = dry, before = dry;
+  // Of the node in the middle, at x = 0 to round-off, neither has a part.
+  behind.patches = {{.from = 1e-6, .to = 1.0, .factor = 0.2}};
+  before.patches = {{.from = -1.0, .to = -1e-6, .factor = 0.2}};
+  const Ran a = run(with_table(behind), 0.02, 8, 0.04), b = run(with_table(before), 0.02, 8, 0.04),
+            all = run(with_table(dry), 0.02, 8, 0.04);
+  for (std::size_t i = 1; i < a.states.size(); ++i) {
+    const Vec2 force = total(a.states[i]), mirrored = total(b.states[i]);
+    EXPECT_NEAR(force.x, mirrored.x, 1e-10 * force.x);
+    EXPECT_NEAR(force.y, -mirrored.y, 1e-10 * force.x);
+    EXPECT_LT(a.states[i].works.relative, 1e-12);
+  }
+  EXPECT_GT(std::abs(total(a.states.back()).y), 1e-3 * total(a.states.back()).x);
+  EXPECT_LT(std::abs(total(all.states.back()).y), 1e-12 * total(all.states.back()).x);
+}
+
+/// All pressures are below a tenth of the reference, or above ten times: the factor is a constant,
+/// and so are the bits.
+TEST(CrushFriction, PressuresBeyondTheRangeGiveAConstant) {
+  for (const auto& [reference, factor] :
+       {std::pair{1e9, std::pow(0.1, -0.2)}, std::pair{1e-3, std::pow(10.0, -0.2)}}) {
+    const Pressed by_table = with_table({.coefficient = 0.1,
+                                         .slip = {},
+                                         .pressure_exponent = -0.2,
+                                         .pressure_reference = reference,
+                                         .patches = {}}),
+                  by_number = make(0.1 * factor), other = make(0.1);
+    // By tables what does not touch yet has the factor of no pressure.
+    const double first = 0.1 * std::pow(0.1, -0.2);
+    const Ran a = run(by_table, 0.02, 6, 0.04, 0.003);
+    if (reference > 1.0) {
+      const Ran b = run(by_number, 0.02, 6, 0.04, 0.003), c = run(other, 0.02, 6, 0.04, 0.003);
+      EXPECT_EQ(a.states.back().force, b.states.back().force);
+      EXPECT_NE(a.states.back().force, c.states.back().force);
+      continue;
+    }
+    for (std::size_t i = 1; i < a.states.size(); ++i)
+      for (std::size_t k = 0; k < a.states[i].force.size(); ++k) {
+        const Vec2 r = a.states[i].force[k];
+        if (a.states[i].status[k] != contact::Status::slip) continue;
+        const double mu = a.states[i - 1].force[k].x > 0.0 ? 0.1 * factor : first;
+        EXPECT_NEAR(std::abs(r.y), mu * r.x, 1e-12 * r.x) << i << " " << k;
+      }
+  }
+}
+
+/// Each node slides by the coefficient of its own pressure and place in the increment before.
+TEST(CrushFriction, EachNodeHasTheCoefficientOfItsPressureAndPlace) {
+  const contact::FrictionTable table{.coefficient = 0.2,
+                                     .slip = {},
+                                     .pressure_exponent = -0.3,
+                                     .pressure_reference = 4e4,
+                                     .patches = {{.from = 0.01, .to = 0.03, .factor = 0.5}}};
+  const Pressed p = with_table(table);
+  const Ran ran = run(p, 0.02, 12, 0.04, 0.02);
+  double least = 1.0, most = 0.0;
+  for (std::size_t i = 1; i < ran.states.size(); ++i) {
+    const statics::CrushState &before = ran.states[i - 1], &now = ran.states[i];
+    EXPECT_LT(ran.reports[i - 1].residual, 1e-12);
+    for (std::size_t k = 0; k < now.force.size(); ++k) {
+      const std::size_t node = static_cast<std::size_t>(p.model.nodes[k]);
+      const double x = p.mesh.coordinates[node].x + before.u[node].x + before.slide;
+      const double mu =
+          contact::friction_at(
+              table, {.place = {x, 0, 0}, .pressure = before.force[k].x / p.mesh.tributary[k]})
+              .coefficient;
+      EXPECT_LE(std::abs(now.force[k].y), mu * now.force[k].x * (1.0 + 1e-12)) << i << " " << k;
+      if (now.status[k] != contact::Status::slip) continue;
+      EXPECT_NEAR(std::abs(now.force[k].y), mu * now.force[k].x, 1e-12 * now.force[k].x);
+      least = std::min(least, mu);
+      most = std::max(most, mu);
+    }
+  }
+  EXPECT_GT(most, 3.0 * least);
+  EXPECT_LT(ran.states.back().works.relative, 1e-12);
 }
 
 TEST(Crush, KeepsTheStateWhereItDoesNotConverge) {

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <vector>
 
+#include "rondo/contact/friction_table.hpp"
 #include "support/solid_steady.hpp"
 
 namespace standing_test {
@@ -82,6 +83,19 @@ int count(const StandingState& s, Status status) {
   int n = 0;
   for (const RollingStatus& p : s.solution.status) n += p.status == status ? 1 : 0;
   return n;
+}
+
+/// 1 cm² for each candidate.
+std::vector<double> areas(const test::SteadyWheel& w) {
+  return std::vector<double>(w.harmonics.n_candidates(), 1e-4);
+}
+
+StandingState drawn(const test::SteadyWheel& w, contact::FrictionTable table) {
+  StandingWheel wheel(w.harmonics, 0.0, contact::friction_of(std::move(table)), nullptr, areas(w));
+  for (const double depth : {2e-3, 4e-3}) static_cast<void>(pressed(wheel, {.depth = depth}));
+  for (const double slide : {1e-3, 2e-3})
+    static_cast<void>(pressed(wheel, {.depth = 4e-3, .slide = slide}));
+  return wheel.state();
 }
 
 }  // namespace
@@ -169,6 +183,59 @@ TEST(Standing, DrawnAlongTheGroundItSlidesInTheEnd) {
 }
 
 /// Forces beyond K u, here as many again: the states of a body that is twice as stiff.
+/// Ice under the left half or under the right one: mirrored, the drag on the other half.
+TEST(Standing, PatchesOnEitherSideAreMirrored) {
+  const test::SteadyWheel w(standing_case());
+  const auto on = [&](contact::Side side) {
+    return drawn(w, {.coefficient = 0.4,
+                     .slip = {},
+                     .patches = {{.from = -1.0, .to = 1.0, .side = side, .factor = 0.1}}})
+        .solution.forces;
+  };
+  const RollingForces left = on(contact::Side::left), right = on(contact::Side::right),
+                      both = on(contact::Side::both);
+  const double size = left.normal;
+  EXPECT_NEAR(left.normal, right.normal, 1e-9 * size);
+  EXPECT_NEAR(left.heading, right.heading, 1e-9 * size);
+  EXPECT_NEAR(left.lateral, -right.lateral, 1e-9 * size);
+  EXPECT_NEAR(left.aligning, -right.aligning, 1e-9 * size);
+  EXPECT_GT(std::abs(left.aligning), 1e-3 * size);
+  const RollingForces ice =
+      drawn(w, {.coefficient = 0.04, .slip = {}, .patches = {}}).solution.forces;
+  EXPECT_NEAR(both.heading, ice.heading, 1e-9 * size);
+  EXPECT_NEAR(both.normal, ice.normal, 1e-9 * size);
+  EXPECT_LT(left.heading, -0.15 * size);
+}
+
+/// Each pair that slides has the coefficient of its pressure in the increment before.
+TEST(Standing, APairHasTheCoefficientOfItsPressureBefore) {
+  const test::SteadyWheel w(standing_case());
+  const contact::FrictionTable table{.coefficient = 0.4,
+                                     .slip = {},
+                                     .pressure_exponent = -0.3,
+                                     .pressure_reference = 2e6,
+                                     .patches = {}};
+  StandingWheel wheel(w.harmonics, 0.0, contact::friction_of(table), nullptr, areas(w));
+  double least = 1.0, most = 0.0;
+  for (int k = 1; k <= 6; ++k) {
+    const Eigen::VectorXd before = wheel.state().solution.force;
+    const StandingState s = pressed(wheel, {.depth = 1e-3 * k, .slide = 5e-4 * k});
+    for (std::size_t j = 0; j < s.solution.status.size(); ++j) {
+      const auto row = static_cast<Index>(3 * j);
+      const double normal = s.solution.force[row], was = row < before.size() ? before[row] : 0.0;
+      const double mu =
+          contact::friction_at(table, {.place = {}, .pressure = was / 1e-4}).coefficient;
+      const double shear = s.solution.force.segment<2>(row + 1).norm();
+      EXPECT_LE(shear, mu * normal * (1.0 + 1e-9)) << k << " " << j;
+      if (s.solution.status[j].status != Status::slip) continue;
+      EXPECT_NEAR(shear, mu * normal, 1e-9 * normal) << k << " " << j;
+      least = std::min(least, mu);
+      most = std::max(most, mu);
+    }
+  }
+  EXPECT_GT(most, 1.3 * least);
+}
+
 TEST(Standing, FindsTheStatesOfABodyWithAnotherPartOfForces) {
   test::SteadyWheel w(standing_case());
   StandingWheel linear(w.harmonics, 0.03, 0.3, nullptr);

@@ -9,6 +9,7 @@
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/build/ground/contact_law.hpp"
 #include "rondo/analysis/build/ground/held_ground.hpp"
+#include "rondo/analysis/build/ground/rolling_law.hpp"
 #include "rondo/analysis/build/physical.hpp"
 #include "rondo/analysis/build/plausible/plausible.hpp"
 #include "rondo/analysis/crush/crush_members.hpp"
@@ -136,9 +137,9 @@ void WheelCrush::prepare() {
     remainder_ =
         std::make_unique<SteadyRemainder>(body_->mesh, body_->sector, *body_->swept,
                                           body.candidates, body.samples, 0.0, body.threads);
-  wheel_ = std::make_unique<statics::StandingWheel>(*body_->harmonics, case_.motion.camber,
-                                                    law_of(*case_.ground).friction.constant(),
-                                                    remainder_.get());
+  wheel_ = std::make_unique<statics::StandingWheel>(
+      *body_->harmonics, case_.motion.camber, law_of(*case_.ground).friction, remainder_.get(),
+      extents_of<3>(body_->mesh, body_->sector, body.candidates));
   record_ = std::make_unique<WheelCrushRecord>(body_->mesh, *wheel_);
 }
 

@@ -56,6 +56,20 @@ bool is_no_constant(const FrictionTable& friction) {
   return !friction.is_constant();
 }
 
+/// The factors of the slip speed are not all the same.
+bool has_slip_factors(const FrictionTable& friction) {
+  FrictionTable slip{.coefficient = friction.coefficient, .slip = friction.slip, .patches = {}};
+  return !slip.is_constant();
+}
+
+bool is_of_latin(const Case& c) {
+  return c.analysis.kind == AnalysisKind::crush && c.analysis.solver != CrushMethod::direct;
+}
+
+bool is_by_increments(const Case& c) {
+  return c.analysis.kind == AnalysisKind::crush && c.analysis.solver == CrushMethod::direct;
+}
+
 bool has_patches(const FrictionTable& friction) {
   FrictionTable patches{
       .coefficient = friction.coefficient, .slip = {}, .patches = friction.patches};
@@ -72,15 +86,21 @@ constexpr FrictionRefusal friction_refusals[] = {
      },
      has_patches, "a start in steady rolling has one friction everywhere on the ground",
      "no [[ground.patch]]; or initial.state = \"stationary\""},
-    {[](const Case& c) { return c.analysis.kind == AnalysisKind::crush; }, is_no_constant,
-     "a crush takes one coefficient of friction for all contacts",
-     "a number, and no [[ground.patch]]"},
+    {is_of_latin, is_no_constant,
+     "LATIN solves all increments at once with one coefficient of friction for all contacts",
+     "a number, and no [[ground.patch]]; or analysis.solver = \"direct\""},
+    {is_by_increments, has_slip_factors,
+     "a crush is so slow that it has no slip speed, which the coefficient could depend on",
+     "no slip_speed, and a coefficient times its factor at the slip speed that is meant; or a "
+     "dynamic analysis"},
 };
 
-/// The key that is refused: patches, if without them it would not be.
+/// The key that is refused: patches, if without them it would not be; the slip speeds, if only they
+/// are.
 std::string_view key_of(const FrictionRefusal& refusal, FrictionTable friction) {
   friction.patches.clear();
-  return refusal.cannot(friction) ? table_key : "ground.patch[0]";
+  if (!refusal.cannot(friction)) return "ground.patch[0]";
+  return refusal.cannot == has_slip_factors ? slip_key : table_key;
 }
 
 }  // namespace

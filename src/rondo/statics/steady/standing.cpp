@@ -57,14 +57,18 @@ VectorXd padded(VectorXd force, Index size) {
 
 }  // namespace
 
-StandingWheel::StandingWheel(const RollingHarmonics<3>& harmonics, double camber, double friction,
-                             RollingRemainder* remainder)
+StandingWheel::StandingWheel(const RollingHarmonics<3>& harmonics, double camber,
+                             contact::Friction friction, RollingRemainder* remainder,
+                             std::vector<double> extent)
     : harmonics_(harmonics),
       remainder_(remainder),
       window_(harmonics, SlipDifference::standing, camber),
-      friction_(friction),
+      friction_(std::move(friction)),
+      extent_(std::move(extent)),
       touch_height_(0.0) {
   RONDO_DEMAND(harmonics.body().samples == 1, harmonics.body().samples);
+  RONDO_DEMAND(friction_.is_constant() || extent_.size() == harmonics.n_candidates(),
+               extent_.size(), harmonics.n_candidates());
   each_candidate(harmonics, [&](const RollingPair& p) {
     touch_height_ = std::max(touch_height_, -rise_of(window_, p));
   });
@@ -122,12 +126,50 @@ FiniteRolling StandingWheel::solve_finite(const RollingDrive& drive, const Stand
   return solve_finite_rolling(window_, drive, *remainder_);
 }
 
+double StandingWheel::friction_of_all() const {
+  return friction_.is_constant() ? friction_.constant() : 1.0;
+}
+
+/// Of a pair of the window, by its pressure and place in the state.
+double StandingWheel::coefficient(std::size_t pair) const {
+  const RollingPair& p = window_.pairs()[pair];
+  const auto row = static_cast<Index>(3 * pair);
+  const double normal = row < state_.solution.force.size() ? state_.solution.force[row] : 0.0;
+  const double extent = extent_[p.candidate];
+  const NodeVector<3> place = window_.to_ground(p.sample) * harmonics_.reference(p.candidate) +
+                              displaced(window_, p, state_.u);
+  return friction_.coefficient({.place = {place[1] + state_.slide, 0.0, place[2]},
+                                .pressure = extent > 0.0 ? normal / extent : 0.0});
+}
+
+/// Of all pairs of the window, for the increment that begins.
+void StandingWheel::find_friction() {
+  if (friction_.is_constant()) return;
+  for (std::size_t j = pairs_.size(); j < window_.pairs().size(); ++j)
+    pairs_.push_back({.factor = coefficient(j)});
+}
+
+/// Pairs that the window grows by have no coefficient yet: with theirs once more.
 bool StandingWheel::solve(const StandingTarget& target, StandingState& next) {
-  const RollingDrive drive{.height = touch_height_ - target.depth,
-                           .speed = target.slide - state_.slide,
-                           .friction = friction_,
-                           .load = target.load};
+  RollingDrive drive{.height = touch_height_ - target.depth,
+                     .speed = target.slide - state_.slide,
+                     .friction = friction_of_all(),
+                     .load = target.load};
   window_.count_from(harmonics_.on_candidates(state_.u));
+  const std::optional<FiniteRolling> finite = finite_;
+  pairs_.clear();
+  do {
+    finite_ = finite;
+    find_friction();
+    drive.pairs = pairs_;
+    solve_contact(target, drive, next);
+  } while (!friction_.is_constant() && pairs_.size() < window_.pairs().size());
+  if (target.load) next.depth = touch_height_ - next.solution.height;
+  return next.solution.end == RollingEnd::solved;
+}
+
+void StandingWheel::solve_contact(const StandingTarget& target, const RollingDrive& drive,
+                                  StandingState& next) {
   if (remainder_) {
     take(solve_finite(drive, target), next);
   } else {
@@ -137,8 +179,6 @@ bool StandingWheel::solve(const StandingTarget& target, StandingState& next) {
       find_inner({}, next);
     }
   }
-  if (target.load) next.depth = touch_height_ - next.solution.height;
-  return next.solution.end == RollingEnd::solved;
 }
 
 VectorXd StandingWheel::moved(const StandingState& next) const {
@@ -157,7 +197,7 @@ VectorXd StandingWheel::moved(const StandingState& next) const {
 void StandingWheel::judge(StandingState& next) const {
   next.residual =
       residual_of(window_.problem(), RollingPoint{next.solution.force, next.solution.height, 0.0},
-                  moved(next), friction_);
+                  moved(next), PairCoefficients(friction_of_all(), pairs_));
   MatrixXd force = MatrixXd::Zero(next.u.rows(), next.u.cols());
   for (std::size_t j = 0; j < window_.pairs().size(); ++j) {
     const RollingPair& p = window_.pairs()[j];

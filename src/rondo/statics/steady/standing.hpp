@@ -3,9 +3,10 @@
 /// drawn along it (docs/tyre.md, section 6): an equilibrium after each, under Signorini's law on
 /// gaps and Coulomb's on the ways of nodes along the ground since the increment before
 /// (docs/theory.md, 6.4). The law of an increment is that of a pair of steady rolling, whose solver
-/// is used with one sample a sector, no spin and no inertia. A node that touches for the first time
-/// within an increment has its way from where it was before it: an error that vanishes with the
-/// increments.
+/// is used with one sample a sector, no spin and no inertia. The coefficient of friction of a pair
+/// is that of its pressure and its place at the end of the increment before; slip speeds count as
+/// 0. A node that touches for the first time within an increment has its way from where it was
+/// before it: an error that vanishes with the increments.
 #pragma once
 #include <array>
 #include <optional>
@@ -44,10 +45,12 @@ struct StandingState {
 class StandingWheel {
  public:
   /// Both must outlive it. @param harmonics of no spin, one sample a sector; they keep their
-  /// factors if there is a remainder @param camber γ [rad] @param friction μ >= 0
-  /// @param remainder null: the forces of the body are linear
-  StandingWheel(const RollingHarmonics<3>& harmonics, double camber, double friction,
-                RollingRemainder* remainder);
+  /// factors if there is a remainder @param camber γ [rad] @param friction no function of the slip
+  /// speed: a crush has no time @param remainder null: the forces of the body are linear
+  /// @param extent (candidates) area of the undeformed boundary that belongs to each, which its
+  /// pressure is over [m²]; empty: friction is constant
+  StandingWheel(const RollingHarmonics<3>& harmonics, double camber, contact::Friction friction,
+                RollingRemainder* remainder, std::vector<double> extent = {});
 
   /// Height of the center above the ground at first touch [m].
   [[nodiscard]] double touch_height() const noexcept { return touch_height_; }
@@ -62,6 +65,11 @@ class StandingWheel {
 
  private:
   [[nodiscard]] bool solve(const StandingTarget& target, StandingState& next);
+  void solve_contact(const StandingTarget& target, const RollingDrive& drive, StandingState& next);
+  void find_friction();
+  [[nodiscard]] double coefficient(std::size_t pair) const;
+  /// μ where friction is constant; else what the factors of the pairs are of.
+  [[nodiscard]] double friction_of_all() const;
   [[nodiscard]] FiniteRolling solve_finite(const RollingDrive& drive, const StandingTarget& target);
   void take(FiniteRolling found, StandingState& next);
   void lift_off(StandingState& next) const;
@@ -74,7 +82,10 @@ class StandingWheel {
   const RollingHarmonics<3>& harmonics_;
   RollingRemainder* remainder_;
   RollingWindow<3> window_;
-  double friction_, touch_height_;
+  contact::Friction friction_;
+  std::vector<double> extent_;
+  double touch_height_;
+  std::vector<PairFriction> pairs_;  ///< of the increment that is solved; empty: μ is constant
   StandingState state_, trial_;
   std::optional<FiniteRolling> finite_;  ///< of the state; none: of no state yet, or linear
 };

@@ -87,6 +87,7 @@ CrushSetup build_crush(const Case& c) {
   s.free = fem::free_nodes(s.mesh);
   s.model =
       statics::make_crush_model(s.mesh.coordinates, s.mesh.boundary, law_of(*c.ground).friction);
+  s.model.extent = s.mesh.tributary;
   RONDO_DEMAND(
       s.mass.size() == s.mesh.n_nodes() && s.model.clearance.size() == s.mesh.boundary.size(),
       s.mass.size(), s.mesh.n_nodes(), s.model.clearance.size(), s.mesh.boundary.size());

@@ -30,25 +30,14 @@ std::vector<int> key_of(const RollingStatuses& statuses) {
   return key;
 }
 
-/// Makes the form (6.4f) without friction one with a coefficient for each pair.
-void lay_friction(const PairCoefficients& friction, Lcp& lcp) {
-  const Index m = lcp.matrix.rows() / 3;
-  for (Index j = 0; j < m; ++j) {
-    const double coefficient = friction[at(j)];
-    lcp.matrix.col(j).head(2 * m) -= coefficient * lcp.matrix.col(m + j).head(2 * m);
-    lcp.matrix(2 * m + j, j) = 2.0 * coefficient;
-    lcp.cover[m + j] = 1.0 / std::max(1.0, coefficient);
-  }
-}
-
 Lcp complementary(const PlaneProblem& w, const RollingDrive& d) {
   VectorXd free = w.base;
   free(Eigen::seqN(0, w.n_pairs(), 2)).array() += d.height;
   free(Eigen::seqN(1, w.n_pairs(), 2)).array() += d.speed * w.time;
-  if (d.pairs.empty()) return make_complementary({w.matrix, std::move(free), d.friction}).lcp;
-  Lcp lcp = make_complementary({w.matrix, std::move(free), 0.0}).lcp;
-  lay_friction(d.coefficients(), lcp);
-  return lcp;
+  std::vector<double> friction(w.pairs.size());
+  for (std::size_t j = 0; j < friction.size(); ++j) friction[j] = d.coefficients()[j];
+  return make_complementary({w.matrix, std::move(free), CandidateFriction(std::move(friction))})
+      .lcp;
 }
 
 RollingStatuses pivoted_statuses(const LcpSolution& lcp, const PairCoefficients& friction) {
