@@ -55,8 +55,8 @@ double on_line(Vec2 a, Vec2 b, double x) {
   return a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
 }
 
-/// Heights of the ground on the left and on the right of a vertical line. Its points that are as near
-/// to that as one place are on it.
+/// Heights of the ground on the left and on the right of a vertical line. Its points that are as
+/// near to that as one place are on it.
 std::pair<double, double> heights_at(const std::vector<Vec2>& p, double x) {
   const auto first = std::ranges::lower_bound(p, x - one_place, {}, &Vec2::x);
   const auto after = std::ranges::upper_bound(p, x + one_place, {}, &Vec2::x);

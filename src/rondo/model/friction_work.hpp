@@ -42,7 +42,8 @@ class FrictionWork {
  public:
   /// Places are as far apart as the candidates around the wheel are in the mean, and cover as much
   /// as its radius ahead and behind; in three dimensions there are as many across as candidates at
-  /// one angle, most_across at the most, from one side of the tread to the other. Free bodies have no wheel, and so no places.
+  /// one angle, most_across at the most, from one side of the tread to the other. Free bodies have
+  /// no wheel, and so no places.
   /// @pre has_candidates(model)
   explicit FrictionWork(const Model& model);
 

@@ -21,7 +21,8 @@ inline const std::vector<Case>& cases_with_every_key() {
     std::vector<std::string> latin = crush;
     latin.emplace_back("analysis.solver=latin-pgd");
     const std::vector<std::string> probe{"output.probe=[{name = 'p', position = [0.2, 0.0]}]"},
-        obstacle{"ground.obstacle=[{kind = 'cleat', at = 2.0, height = 0.1, length = 0.3}]"},
+        obstacle{"ground.profile=flat", "disk.width=2.0",
+                 "ground.obstacle=[{kind = 'cleat', at = 2.0, height = 0.1, length = 0.3}]"},
         pressure{"load.pressure=[{curve = 'rim', value = 3}]",
                  "material.region=[{layers = [2, 3], density = 7800}]",
                  "solver.implicit=[{slower_than = 1e-6}]"},

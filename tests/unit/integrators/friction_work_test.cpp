@@ -240,9 +240,14 @@ TEST(FrictionWork, WhatIsBetweenTwoPlacesBelongsToBoth) {
     std::size_t before;
     double behind;
   };
-  for (const auto& [x, before, behind] : {Row{-5.0, 0, 0.0}, {-0.75, 0, 0.0}, {-0.5, 0, 0.5},
-                                          {-0.25, 1, 0.0}, {0.0, 1, 0.5}, {0.625, 2, 0.75},
-                                          {0.75, 2, 1.0}, {7.0, 2, 1.0}}) {
+  for (const auto& [x, before, behind] : {Row{-5.0, 0, 0.0},
+                                          {-0.75, 0, 0.0},
+                                          {-0.5, 0, 0.5},
+                                          {-0.25, 1, 0.0},
+                                          {0.0, 1, 0.5},
+                                          {0.625, 2, 0.75},
+                                          {0.75, 2, 1.0},
+                                          {7.0, 2, 1.0}}) {
     EXPECT_EQ(axis.share_of(x).before, before) << x;
     EXPECT_EQ(axis.share_of(x).behind, behind) << x;
   }

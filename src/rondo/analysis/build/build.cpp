@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "rondo/analysis/build/ground/contact_law.hpp"
+#include "rondo/analysis/build/ground/ground_lines.hpp"
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/ground/road_lines.hpp"
 #include "rondo/analysis/build/ground/small_ground.hpp"
@@ -359,6 +360,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared, Steps steps) {
   check_stability(c, s);
   tell_physical_figures(c, s);
   tell_road(c, s);
+  tell_ground(c, s);
   if (s.model.solid) tell_solid_figures(c, s);
 }
 

@@ -163,6 +163,19 @@ std::string end_text(const road::Surface& surface, const RoadPart& part) {
       step.value, at_place(step.u, step.v));
 }
 
+/// A warning where the wheel goes beyond a side that does not go on.
+std::string side_text(const road::Surface& surface, const RoadPart& reached) {
+  const road::Border border = surface.edges().v;
+  const road::Axis& v = surface.v_axis();
+  const bool goes_on = border == road::Border::repeat || border == road::Border::reflect;
+  if (goes_on || (reached.v_from >= v.first() && reached.v_to <= v.last())) return {};
+  return fmt::format(
+      "ground.road: the wheel comes to v = {:.4g} to {:.4g} m, and the road goes from {:.4g} to "
+      "{:.4g} m: beyond its sides the ground goes on at the height of the side; give another "
+      "ground.road_offset, less drift by motion.slip_angle, or a wider road",
+      reached.v_from, reached.v_to, v.first(), v.last());
+}
+
 void tell_surface(const Case& c, Setup& s, const road::Surface& surface, const RoadPart& reached,
                   const road::RoadReport& report) {
   const RoadCase& road = c.ground->road;
@@ -180,7 +193,7 @@ void tell_surface(const Case& c, Setup& s, const road::Surface& surface, const R
   for (std::string& text : road::lines_of(*road.read, report, surface.edges()))
     line(std::move(text));
   for (std::string& warning :
-       std::array{leaving_text(road, reach_along(c, s.mesh), on_road),
+       std::array{leaving_text(road, reach_along(c, s.mesh), on_road), side_text(surface, reached),
                   end_text(surface, report.part), bend_text(s, surface, report.part)})
     if (!warning.empty()) s.warnings.push_back(std::move(warning));
 }
