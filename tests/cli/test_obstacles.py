@@ -153,6 +153,61 @@ class Refused(ProgramTest):
         self.assertIn("warning: ground.obstacle[0].fillet: the radius of 0.004 m", done.stderr)
 
 
+class Swept(ProgramTest):
+    def test_members_have_their_own_obstacles(self):
+        (self.folder / "case.toml").write_text(SMALL + """
+[[ground.obstacle]]
+kind = "cleat"
+at = 0.05
+height = 0.01
+length = 0.02
+""")
+        (self.folder / "study.toml").write_text("""schema = 1
+title = "two cleats"
+base = "case.toml"
+[window]
+from = 0.01
+to = 0.02
+[[vary]]
+key = "ground.obstacle[0].height"
+values = [0.01, 0.002]
+""")
+        out = self.folder / "swept"
+        done = run("sweep", self.folder / "study.toml", "-o", out, "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        swept = [history(one)["force_y"] for one in sorted(path.parent for path in out.glob("*/history.csv"))]
+        self.assertEqual(len(swept), 2)
+        alone = []
+        for height in (0.01, 0.002):
+            done = run("run", self.folder / "case.toml", "-o", self.folder / "alone", "--quiet",
+                       "--overwrite", *settings(f"ground.obstacle[0].height={height}"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            alone.append(history(self.folder / "alone")["force_y"])
+        for one, other in zip(swept, alone):
+            self.assertTrue(np.array_equal(one, other))
+        self.assertFalse(np.array_equal(*alone))
+
+
+class Told(ProgramTest):
+    def test_check_lists_obstacles_and_warns_of_those_that_are_missed(self):
+        done = run("check", self.case(SMALL), *settings(CLEAT))
+        self.assertIn("a cleat of 0.01 m at x = 0.05 to 0.07 m", done.stdout)
+        self.assertNotIn("does not come", done.stderr)
+        far = run("check", self.case(SMALL), *settings(CLEAT.replace("0.05", "300")))
+        self.assertIn("ground.obstacle[0]: the body does not come to the cleat: it comes to x = -0.3 "
+                      "to 0.5 m", far.stderr)
+
+    def test_patches_that_are_missed_or_left_sideways_are_told(self):
+        ice = "ground.patch=[{from = 30, to = 50, factor = 0.2}]"
+        done = run("check", self.case(SMALL), *settings(ice))
+        self.assertIn("ground.patch[0]: the body does not come to the patch", done.stderr)
+        self.assertIn("times 0.2 from x = 30 to 50 m", done.stdout)
+        left = "ground.patch=[{from = 0.1, to = 0.5, side = 'left', factor = 0.2}]"
+        for angle, warned in ((0.0, False), (0.2, True)):
+            done = run("check", self.case(WHEEL), *settings(left, f"motion.slip_angle={angle}"))
+            self.assertEqual("the wheel drifts by" in done.stderr, warned, done.stderr)
+
+
 class Resumed(ResumeTest):
     def test_the_case_of_the_results_has_the_obstacles(self):
         self.leave_alone(SMALL, *settings(CLEAT))

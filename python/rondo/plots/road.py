@@ -13,6 +13,7 @@ from ..data.errors import InputError
 from .labels import axes_of, readable
 
 if TYPE_CHECKING:
+    from ..data.run import Run
     from ..files import Road
 
 HEIGHT = 2.2    # in
@@ -48,4 +49,24 @@ def plot_road(road: Road, ax: Axes | None = None, u: tuple[float, float] | None 
     ax.set_xlabel("u, along the reference line (m)")
     ax.set_ylabel("v, to the left (m)")
     ax.set_title(road.file.name)
+    return ax
+
+
+def plot_track(run: Run, ax: Axes | None = None) -> Axes:
+    """The road of a run in three dimensions where the wheel comes: the way of its center, and of both sides
+    of the undeformed tread."""
+    from ..files import read_crg
+    ground = run.case.get("ground", {})
+    if "road" not in ground:
+        raise InputError(f"{run.directory}: its case.toml has no ground.road (allowed: a wheel with a width on a "
+                         "measured road)")
+    road = read_crg(run.directory / ground["road"])
+    u = run.center[:, 0] + float(ground["road_start"])
+    v = float(ground.get("road_offset", 0.0)) - run.lateral
+    half, reach = 0.5 * float(np.ptp(run.mesh.coordinates[:, 2])), run.outer_radius
+    ax = plot_road(road, ax, (u.min() - reach, u.max() + reach),
+                   (v.min() - 2 * half, v.max() + 2 * half))
+    ax.plot(u, v, color=style.GREEN, linewidth=1.5)
+    for side in (-half, half):
+        ax.plot(u, v + side, color=style.GREEN, linewidth=1, linestyle="--")
     return ax

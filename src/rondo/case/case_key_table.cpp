@@ -596,24 +596,24 @@ constexpr CaseKey keys[] = {
      "([theory.md](theory.md), 4.3)"},
 
     {"ground.obstacle[].kind", "-", FIELD(ground->obstacles[k].kind),
-     one_from("cleat", "step", "pothole"), required.body(never),
+     one_from("cleat", "step", "pothole"), required,
      "Obstacle on the ground, whose height it adds to. \"cleat\": a bar of rectangular section. "
      "\"step\": behind it the ground goes on at another level. \"pothole\": a trough of "
      "rectangular section ([roads.md](roads.md#5-obstacles))"},
-    {"ground.obstacle[].at", "m", FIELD(ground->obstacles[k].at), any, required.body(never),
+    {"ground.obstacle[].at", "m", FIELD(ground->obstacles[k].at), any, required,
      "Position x of its first edge, for a wheel with a width where that crosses the middle of the "
      "track"},
-    {"ground.obstacle[].height", "m", FIELD(ground->obstacles[k].height), any, required.body(never),
+    {"ground.obstacle[].height", "m", FIELD(ground->obstacles[k].height), any, required,
      "Height of a cleat; of a step, < 0: down; depth of a pothole, > 0"},
     {"ground.obstacle[].length", "m", FIELD(ground->obstacles[k].length), positive,
-     required.if_item(obstacle_has_length, "required, not for a step").body(never),
+     required.if_item(obstacle_has_length, "required, not for a step"),
      "Length of a cleat or a pothole, normal to its edges"},
     {"ground.obstacle[].angle", "rad", FIELD(ground->obstacles[k].angle),
-     with(slanted, "in rad: 30° is 0.5236"), optional.body(never),
+     with(slanted, "in rad: 30° is 0.5236"), optional,
      "Angle between the edges and the axis across the track of a wheel with a width; > 0: its left "
      "side meets them first"},
-    {"ground.obstacle[].fillet", "m", FIELD(ground->obstacles[k].fillet), not_negative,
-     optional.body(never), "Radius that rounds its convex edges; 0: they are sharp"},
+    {"ground.obstacle[].fillet", "m", FIELD(ground->obstacles[k].fillet), not_negative, optional,
+     "Radius that rounds its convex edges; 0: they are sharp"},
 
     {"ground.friction.coefficient", "-", FIELD(ground->friction.coefficient), between(0, 100),
      required.if_(has_friction_table, "required").body(never),

@@ -124,10 +124,10 @@ void check_size(std::size_t k, const Obstacle& o, std::vector<ObstacleFault>& fa
   const bool steps = o.kind == ObstacleKind::step;
   if (steps ? o.height == 0.0 : !(o.height > 0.0))
     faults.push_back({k, "height",
-                      fmt::format("a {} of {:.6g} m is none", name_of_height(o), o.height),
+                      fmt::format("there is no {} of {:.6g} m", name_of_height(o), o.height),
                       steps ? "> 0: up, or < 0: down" : "> 0"});
   if (!steps && !(o.length > 0.0))
-    faults.push_back({k, "length", fmt::format("a length of {:.6g} m is none", o.length), "> 0"});
+    faults.push_back({k, "length", fmt::format("there is no length of {:.6g} m", o.length), "> 0"});
   if (o.fillet > std::abs(o.height))
     faults.push_back({k, "fillet",
                       fmt::format("does not fit: it needs {:.6g} m of the {} of {:.6g} m", o.fillet,
@@ -143,9 +143,10 @@ void check_size(std::size_t k, const Obstacle& o, std::vector<ObstacleFault>& fa
 void check_pair(std::size_t k, const Obstacle& before, const Obstacle& o,
                 std::vector<ObstacleFault>& faults) {
   if (o.at > end_of(before) - one_place) return;
+  const auto in_the_middle = [&](double x) { return x / std::cos(before.angle); };
   faults.push_back({k, "at",
-                    fmt::format("begins within the obstacle from x = {:.6g} to {:.6g} m", before.at,
-                                end_of(before)),
+                    fmt::format("begins within the obstacle from x = {:.6g} to {:.6g} m",
+                                in_the_middle(before.at), in_the_middle(end_of(before))),
                     "obstacles one behind the other"});
 }
 

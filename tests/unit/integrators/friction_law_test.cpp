@@ -13,6 +13,7 @@
 
 #include "comparison.hpp"
 #include "integrator_cases.hpp"
+#include "rondo/contact/friction_table.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
 #include "rondo/integrators/fused/sparse_integrator.hpp"
 #include "rondo/model/steps/step_table.hpp"
@@ -75,6 +76,24 @@ double largest_error(double dt) {
 }
 
 }  // namespace
+
+/// v²/2g = ∫ μ dx, over what is left and behind the ice.
+TEST(FrictionLaw, ANodeStopsBehindAPatchWhereItsEnergyEnds) {
+  const double dt = 2e-7, dry = 0.5, ice = 0.1, from = 0.2, to = 0.5;
+  const Model model = sliding_particle(
+      contact::friction_of({.coefficient = dry,
+                            .slip = {},
+                            .patches = {{from, to, contact::Side::both, ice / dry}}}),
+      dt);
+  Slide slide(model);
+  const double begins = slide.run.state.u.plane()[0].x;
+  const double speed = slide.velocity() + 0.5 * dt * gravity * dry;  // half a step before
+  while (slide.velocity() > 0.0 && slide.run.state.frame.time < 2.0) slide.run.step();
+  const double energy = 0.5 * speed * speed / gravity;
+  const double stops = to + (energy - dry * (from - begins) - ice * (to - from)) / dry;
+  EXPECT_GT(stops, 1.1);
+  EXPECT_NEAR(slide.run.state.u.plane()[0].x, stops, 1e-6 * stops);
+}
 
 TEST(FrictionLaw, ANodeSlidesByTheClosedFormOfFallingFriction) {
   const double coarse = largest_error(1e-3), fine = largest_error(5e-4);

@@ -125,6 +125,16 @@ Relaxation leading(const Case& c, const SlipStep& step) {
       step, turns(c) ? &statics::RollingForces::lateral : &statics::RollingForces::heading);
 }
 
+/// Friction that falls with the slip speed has several states for the same slip.
+std::string_view other_states(const Case& c) {
+  const auto& slip = c.ground->friction.slip;
+  for (std::size_t k = 1; k < slip.size(); ++k)
+    if (slip[k][1] < slip[k - 1][1])
+      return "; where friction falls with the slip speed the wheel may come to another state than "
+             "that of the change, and its relaxation length is then that of neither";
+  return "";
+}
+
 /// Warns of a change that is not reached on the way.
 void add_short_distance(const Case& c, const SlipStep& step, std::string_view name,
                         const Relaxation& r, std::vector<std::string>& warnings) {
@@ -132,9 +142,10 @@ void add_short_distance(const Case& c, const SlipStep& step, std::string_view na
   if (!r.changes || r.share >= enough) return;
   warnings.push_back(fmt::format(
       "analysis.step_distance = {:.4g} m: only {:.3g} % of the change of the {} is reached after "
-      "{:.4g} m, and {}; a longer distance",
+      "{:.4g} m, and {}; a longer distance{}",
       *c.analysis.step_distance, 100.0 * r.share, name, step.rows.back().distance,
-      r.fitted ? "the exponential is fitted to a part" : "no exponential is fitted"));
+      r.fitted ? "the exponential is fitted to a part" : "no exponential is fitted",
+      other_states(c)));
 }
 
 }  // namespace

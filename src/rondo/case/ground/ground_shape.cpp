@@ -75,12 +75,13 @@ std::vector<contact::Obstacle> normal_to_edges(std::vector<contact::Obstacle> ob
 }
 
 /// What the obstacles make of the profile may have no room for the fillets of both.
-void check_whole(CaseValues& in, const contact::GroundShape& whole) {
+void check_whole(CaseValues& in, const Case& c, const contact::GroundShape& whole) {
+  const double turned = std::cos(c.ground->obstacles.front().angle);
   for (const contact::ShapeFault& fault : contact::shape_faults(whole))
     in.fault(list,
              fmt::format("on this ground {}, near x = {:.6g} m",
                          fault.about_fillet ? "a fillet does not fit" : fault.message,
-                         whole.profile[at(fault.point)].x),
+                         whole.profile[at(fault.point)].x / turned),
              "a smaller fillet, or another place");
 }
 
@@ -110,7 +111,7 @@ void make_shape(CaseValues& in, Case& c) {
   check_road(in, c);
   if (!all_good(in, *c.ground)) return;
   contact::GroundShape whole = contact::with_obstacles(base, obstacles);
-  check_whole(in, whole);
+  check_whole(in, c, whole);
   if (!in.good({list}) || is_on_road_surface(c)) return;
   c.ground->shape = std::move(whole);
   c.ground->edge_angle = c.ground->obstacles.front().angle;

@@ -99,6 +99,16 @@ void tell_friction_table(const contact::FrictionTable& table, Setup& s) {
   s.figures.emplace_back("friction", text);
 }
 
+void warn_of_unknown_pressures(const Case& c, Setup& s) {
+  if (c.initial.state == InitialState::steady_rolling &&
+      c.ground->friction.pressure_exponent != 0.0)
+    s.warnings.push_back(
+        "initial.state: the pressures of the step before the first one are not known, and count as "
+        "a "
+        "tenth of ground.friction.pressure_reference: the tangential force of the first step is "
+        "that of another coefficient");
+}
+
 }  // namespace
 
 void tell_ground(const Case& c, Setup& s) {
@@ -107,6 +117,7 @@ void tell_ground(const Case& c, Setup& s) {
   tell_obstacles(c, reach, s);
   tell_friction_table(c.ground->friction, s);
   tell_patches(c, reach, s);
+  warn_of_unknown_pressures(c, s);
 }
 
 }  // namespace rondo::study

@@ -296,7 +296,8 @@ void LawFollower<D>::follow() {
     go_back(before);
     at_.friction = {.problems = at_.friction.problems};
   }
-  if (take_constant()) take_steps();
+  if (take_constant()) return take_steps();
+  at_.friction.share = 0.0;
 }
 
 }  // namespace
