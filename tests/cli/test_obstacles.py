@@ -175,7 +175,7 @@ values = [0.01, 0.002]
         out = self.folder / "swept"
         done = run("sweep", self.folder / "study.toml", "-o", out, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
-        swept = [history(one)["force_y"] for one in sorted(path.parent for path in out.glob("*/history.csv"))]
+        swept = [history(one)["force_y"] for one in sorted(path.parent for path in out.glob("runs/*/history.csv"))]
         self.assertEqual(len(swept), 2)
         alone = []
         for height in (0.01, 0.002):

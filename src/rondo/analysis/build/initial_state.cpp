@@ -84,11 +84,12 @@ std::vector<Vec3> start_positions(const Setup& s) {
   return x;
 }
 
-/// (n) where the profile of the ground is drawn [m]
-std::vector<Vec2> in_plane(const dynamics::ContactModel& contact, const std::vector<Vec3>& x) {
+/// (n) where the profile of the ground is drawn, if there is ground [m]
+std::vector<Vec2> in_plane(const Setup& s, const std::vector<Vec3>& x) {
+  const contact::EdgeAxes axes = s.model.contact ? s.model.contact->axes : contact::EdgeAxes();
   std::vector<Vec2> out;
   std::ranges::transform(x, std::back_inserter(out),
-                         [&](Vec3 place) { return on_profile(contact, place); });
+                         [&](Vec3 place) { return axes.from_ground(place).plane(); });
   return out;
 }
 
@@ -222,7 +223,7 @@ void check_start(const Case& c, Setup& s) {
                s.displacement.size(), s.model.n_nodes());
   const std::vector<double> size = element_sizes(s.mesh);
   const std::vector<Vec3> places = start_positions(s);
-  const std::vector<Vec2> x = in_plane(*s.model.contact, places);
+  const std::vector<Vec2> x = in_plane(s, places);
   if (s.model.contact) {
     const double told = check_nodes(c, size, places, s);
     check_ground_inside(c, size, x, told, s);
