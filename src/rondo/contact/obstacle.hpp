@@ -34,8 +34,9 @@ struct ObstacleFault {
   std::string member, message, allowed;
 };
 
-/// All that is wrong with obstacles, as they follow each other normal to their edges, by themselves, and with pairs that overlap where they cross the
-/// middle of the track. @pre shape_faults(base) is empty
+/// All that is wrong with obstacles, as they follow each other normal to their edges, by
+/// themselves, and with pairs that overlap where they cross the middle of the track. @pre
+/// shape_faults(base) is empty
 [[nodiscard]] std::vector<ObstacleFault> obstacle_faults(const GroundShape& base,
                                                          std::span<const Obstacle> obstacles);
 

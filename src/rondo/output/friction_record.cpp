@@ -23,14 +23,13 @@ void plan_friction_work(const dynamics::Model& model, io::ResultsLayout& layout)
                                " of the place: at each of /contact/friction_along" +
                                (model.solid ? ", and of /contact/friction_across" : ""),
                            n_along * n_across, model.solid ? n_along : 0});
-  layout.constants.push_back({"/contact/friction_along", "m",
-                              model.solid ? "the places along t1, from the center"
-                                          : "the places along x, from the center",
-                              work.along().places()});
+  layout.constants.push_back(
+      {"/contact/friction_along", "m",
+       model.solid ? "the places along t1, from the center" : "the places along x, from the center",
+       work.along().places()});
   if (model.solid)
     layout.constants.push_back({"/contact/friction_across", "m",
-                                "the places along t2, from the center",
-                                work.across().places()});
+                                "the places along t2, from the center", work.across().places()});
 }
 
 void append_friction_work(const dynamics::Model& model, std::vector<double>& series) {
