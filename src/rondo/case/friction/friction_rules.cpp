@@ -15,6 +15,7 @@ using contact::FrictionTable;
 
 constexpr std::string_view table_key = "ground.friction", slip_key = "ground.friction.slip_speed";
 constexpr double largest_factor = 100.0;  ///< that of the bounds of the other factors
+constexpr double least_step = 1e-9;  ///< of the speeds: slopes between them are numbers   [m/s]
 
 void check_slip_factors(CaseValues& in, const FrictionTable& friction) {
   for (std::size_t k = 0; k < friction.slip.size(); ++k) {
@@ -23,9 +24,9 @@ void check_slip_factors(CaseValues& in, const FrictionTable& friction) {
       in.fault_at_item(slip_key, static_cast<int>(k), std::move(message));
     };
     if (speed < 0.0) fault(fmt::format("the speed {} is below 0", speed));
-    if (k > 0 && speed <= friction.slip[k - 1][0])
-      fault(fmt::format("the speeds must increase, but {} follows {}", speed,
-                        friction.slip[k - 1][0]));
+    if (k > 0 && !(speed - friction.slip[k - 1][0] >= least_step))
+      fault(fmt::format("the speeds must increase, by {:.0e} m/s at the least, but {} follows {}",
+                        least_step, speed, friction.slip[k - 1][0]));
     if (factor < 0.0 || factor > largest_factor)
       fault(fmt::format("the factor {} is not from 0 to {}", factor, largest_factor));
   }
