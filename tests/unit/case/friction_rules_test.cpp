@@ -89,7 +89,8 @@ TEST(FrictionOfTheGround, SlipSpeedsIncreaseAndFactorsAreBounded) {
     return faults(tabled, {"ground.friction.slip_speed=" + points});
   };
   EXPECT_EQ(slip("[[0, 1], [0, 2]]"),
-            "ground.friction.slip_speed: the speeds must increase, but 0 follows 0 ()\n");
+            "ground.friction.slip_speed: the speeds must increase, by 1e-09 m/s at the least, but "
+            "0 follows 0 ()\n");
   EXPECT_EQ(slip("[[-1, 1]]"), "ground.friction.slip_speed: the speed -1 is below 0 ()\n");
   EXPECT_EQ(slip("[[0, -1]]"),
             "ground.friction.slip_speed: the factor -1 is not from 0 to 100 ()\n");
