@@ -138,6 +138,8 @@ def case_keys(schema: dict[str, Any], path: str = "") -> list[tuple[str, dict[st
     for name, value in schema["properties"].items():
         key = f"{path}{name}"
         if "properties" in value:
+            if isinstance(value.get("type"), list):  # a value, or a table in its place
+                found.append((key, value))
             found += case_keys(value, key + ".")
         elif "properties" in value.get("items", {}) if isinstance(value.get("items"), dict) else False:
             found += case_keys(value["items"], key + "[].")

@@ -108,7 +108,7 @@ scheme = ""
             return [item["label"].strip('"') for item in told["found"][k]["completions"]]
 
         self.assertEqual(set(labels(0)), {"profile", "road", "road_start", "road_offset", "road_border",
-                                          "fillet", "restitution", "impact", "patch", "friction.coefficient",
+                                          "fillet", "restitution", "impact", "obstacle", "patch", "friction.coefficient",
                                           "friction.slip_speed", "friction.pressure_exponent",
                                           "friction.pressure_reference"})
         self.assertEqual(labels(1)[:3], ["symplectic", "as-printed", "hati"])
