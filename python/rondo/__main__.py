@@ -99,8 +99,10 @@ def _parser() -> argparse.ArgumentParser:
     footprint.add_argument("--conductivity", type=float, metavar="K",
                            help="Heat conductivity of the tread in W/(m K), for its flash temperature; with --density "
                                 "and --heat-capacity")
-    footprint.add_argument("--density", type=float, metavar="RHO", help="Density of the tread in kg/m3, for the flash temperature")
-    footprint.add_argument("--heat-capacity", type=float, metavar="C", help="Heat capacity of the tread in J/(kg K), for the flash temperature")
+    footprint.add_argument("--density", type=float, metavar="RHO",
+                           help="Density of the tread in kg/m3, for the flash temperature")
+    footprint.add_argument("--heat-capacity", type=float, metavar="C",
+                           help="Heat capacity of the tread in J/(kg K), for the flash temperature")
     footprint.add_argument("--share", type=float, metavar="BETA",
                            help="Of the friction power, that goes into the tread; default 0.5: ground and tread "
                                 "of one material")
