@@ -76,7 +76,9 @@ class Completion(unittest.TestCase):
         self.assertEqual(self.ask("run", "case.toml", "--reduced", "m"), {"model.h5"})
 
     def test_keys_of_a_case(self):
-        self.assertEqual(self.ask("run", "case.toml", "--set", "ground.fr"), {"ground.friction="})
+        self.assertEqual(self.ask("run", "case.toml", "--set", "ground.fr"),
+                         {"ground.friction=", "ground.friction.coefficient=", "ground.friction.slip_speed=",
+                          "ground.friction.pressure_exponent=", "ground.friction.pressure_reference="})
         self.assertIn("output.probe[0].position=", self.ask("run", "case.toml", "--set", "output."))
         self.assertEqual(self.ask("run", "case.toml", "--set", "analysis.solver", "=", "la"),
                          {"latin", "latin-pgd"})
