@@ -67,6 +67,10 @@ double patch_factor(const FrictionTable& table, const Vec3& place) noexcept {
   return factor;
 }
 
+bool falls_with_slip(const FrictionTable& table) noexcept {
+  return !std::ranges::is_sorted(table.slip, {}, [](const auto& point) { return point[1]; });
+}
+
 double largest_friction(const FrictionTable& table) noexcept {
   double slip = table.slip.empty() ? 1.0 : 0.0, patches = 1.0;
   for (const auto& point : table.slip) slip = std::max(slip, point[1]);

@@ -31,7 +31,7 @@ struct FrictionTable {
   double pressure_reference = 2.0e5;  ///< p_ref > 0; p counts from p_ref/10 to 10 p_ref    [Pa]
   std::vector<FrictionPatch> patches;
 
-  /// The same at every place, slip speed and pressure.
+  /// Whether μ is the same at every place, slip speed and pressure.
   [[nodiscard]] bool is_constant() const noexcept;
 };
 
@@ -49,6 +49,9 @@ struct FrictionValue {
 
 /// The most that μ can be, at any place, slip speed and pressure; of a constant, the constant.
 [[nodiscard]] double largest_friction(const FrictionTable& table) noexcept;
+
+/// Whether the factor of some slip speed is below that of a smaller one.
+[[nodiscard]] bool falls_with_slip(const FrictionTable& table) noexcept;
 
 /// The product of the factors of all patches at a place.
 [[nodiscard]] double patch_factor(const FrictionTable& table, const Vec3& place) noexcept;

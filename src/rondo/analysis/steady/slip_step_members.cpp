@@ -127,12 +127,9 @@ Relaxation leading(const Case& c, const SlipStep& step) {
 
 /// Friction that falls with the slip speed has several states for the same slip.
 std::string_view other_states(const Case& c) {
-  const auto& slip = c.ground->friction.slip;
-  for (std::size_t k = 1; k < slip.size(); ++k)
-    if (slip[k][1] < slip[k - 1][1])
-      return "; where friction falls with the slip speed the wheel may come to another state than "
-             "that of the change, and its relaxation length is then that of neither";
-  return "";
+  if (!contact::falls_with_slip(c.ground->friction)) return "";
+  return "; where friction falls with the slip speed the wheel may come to another state than that "
+         "of the change, and its relaxation length is then that of neither";
 }
 
 /// Warns of a change that is not reached on the way.

@@ -29,10 +29,6 @@ constexpr double falling_step = 0.125;  // of the share, with friction that fall
 constexpr double least_step = 1.0 / 512.0;
 constexpr double most_efforts = 3.0;  // of the work that one problem may take
 
-bool falls(const contact::FrictionTable& table) noexcept {
-  return !std::ranges::is_sorted(table.slip, {}, [](const auto& point) { return point[1]; });
-}
-
 std::vector<PairFriction> without_slopes(std::vector<PairFriction> pairs) {
   for (PairFriction& f : pairs) f.by_normal = f.by_way = 0.0;
   return pairs;
@@ -92,7 +88,7 @@ class LawFollower {
   double work_ = 0.0;  ///< of all problems so far
 };
 
-/// With coefficients that are given.
+/// Solves the problem with given coefficients.
 template <int D>
 bool LawFollower<D>::solve_with(const std::vector<PairFriction>& pairs) {
   RollingDrive given = drive_;
@@ -106,7 +102,7 @@ bool LawFollower<D>::solve_with(const std::vector<PairFriction>& pairs) {
   return at_.solved();
 }
 
-/// What it took stays counted.
+/// Takes the state back; the work and the problems so far stay counted.
 template <int D>
 void LawFollower<D>::go_back(const RollingState& to) {
   const RollingEffort effort = at_.effort;
@@ -116,7 +112,8 @@ void LawFollower<D>::go_back(const RollingState& to) {
   at_.friction.problems = problems;
 }
 
-/// Of the coefficients of pairs that touch.
+/// Returns the largest change of the coefficient of a pair that touches, and keeps it with the
+/// pair in the state.
 template <int D>
 double LawFollower<D>::largest_change(const std::vector<PairFriction>& next) {
   double largest = 0.0;
@@ -245,10 +242,10 @@ bool LawFollower<D>::take_constant() {
   return solve_with(std::vector<PairFriction>(problem_.pairs.size()));
 }
 
-/// From the constant coefficient on.
+/// Follows the law from the constant coefficient on, in steps of the share.
 template <int D>
 void LawFollower<D>::take_steps() {
-  const double first = falls(drive_.law->table) ? falling_step : 1.0;
+  const double first = contact::falls_with_slip(drive_.law->table) ? falling_step : 1.0;
   double step = first;
   at_.friction.share = 0.0;
   while (at_.friction.share < 1.0) {
