@@ -7,6 +7,7 @@
 
 #include "rondo/fem/assembly.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
+#include "rondo/mesh/edges.hpp"
 #include "rondo/mesh/solid/wheel.hpp"
 #include "rondo/model/model.hpp"
 
@@ -55,6 +56,15 @@ inline dynamics::Model solid_model(const mesh::Mesh& mesh, const fem::Material& 
 inline void touch_flat_ground(const mesh::Mesh& mesh, contact::Law law, dynamics::Model& m) {
   m.contact.emplace(
       dynamics::ContactModel{contact::Ground({}), law, mesh.boundary, mesh.tributary});
+}
+
+/// A profile with sharp corners, which touch the edges around the wheel.
+inline void touch_corners(const mesh::Mesh& mesh, const contact::GroundShape& ground,
+                          contact::Law law, dynamics::Model& m) {
+  const std::vector<mesh::Edge> edges = mesh::rolling_edges(mesh, "tread");
+  m.contact.emplace(
+      dynamics::ContactModel{contact::Ground(ground, mesh::longest_edge(mesh.coordinates, edges)),
+                             law, mesh.boundary, mesh.tributary, edges});
 }
 
 inline dynamics::Model cornering_model(const mesh::Mesh& mesh, const Cornering& c) {

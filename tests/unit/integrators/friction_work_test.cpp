@@ -138,13 +138,7 @@ Model wheel(const mesh::Mesh& mesh, bool post) {
   Model m = test::cornering_model(mesh, rolling);
   contact::GroundShape ground;
   if (post) ground.profile = {{-9, 0}, {0.02, 0}, {0.02, 0.003}, {0.03, 0.003}, {0.03, 0}, {9, 0}};
-  const std::vector<mesh::Edge> edges = mesh::rolling_edges(mesh, "tread");
-  m.contact.emplace(
-      ContactModel{contact::Ground(ground, mesh::longest_edge(mesh.coordinates, edges)),
-                   {.friction = 0.3},
-                   mesh.boundary,
-                   mesh.tributary,
-                   edges});
+  test::touch_corners(mesh, ground, {.friction = 0.3}, m);
   return m;
 }
 

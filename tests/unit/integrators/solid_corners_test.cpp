@@ -29,13 +29,7 @@ Model over_a_post(const mesh::Mesh& mesh, double at, double height) {
   Model m = test::cornering_model(mesh, rolling);
   contact::GroundShape ground;
   ground.profile = {{-9, 0}, {at, 0}, {at, height}, {at + 0.002, height}, {at + 0.002, 0}, {9, 0}};
-  const std::vector<mesh::Edge> edges = mesh::rolling_edges(mesh, "tread");
-  m.contact.emplace(
-      ContactModel{contact::Ground(ground, mesh::longest_edge(mesh.coordinates, edges)),
-                   {.friction = 0.3},
-                   mesh.boundary,
-                   mesh.tributary,
-                   edges});
+  test::touch_corners(mesh, ground, {.friction = 0.3}, m);
   return m;
 }
 
