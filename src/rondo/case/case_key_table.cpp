@@ -558,12 +558,9 @@ constexpr CaseKey keys[] = {
     {"ground.road", "-", FIELD(ground->road.file), any,
      optional.if_(is_on_road_surface, "none").body(never).free_on_resume(),
      "Measured road in place of `profile`, relative to the case file's directory: its section "
-     "along "
-     "u under a plane body ([roads.md](roads.md#3-a-road-under-a-plane-wheel)), its surface under "
-     "a "
-     "wheel with a width ([roads.md](roads.md#4-wheels-with-a-width)). The `case.toml` of the "
-     "results "
-     "contains the points of the section as `profile`, or the path"},
+     "along u under a plane body ([roads.md](roads.md#3-a-road-under-a-plane-wheel)), its surface "
+     "under a wheel with a width ([roads.md](roads.md#4-wheels-with-a-width)). The `case.toml` of "
+     "the results contains the points of the section as `profile`, or the path"},
     {"ground.road_start", "m", FIELD(ground->road.start), any,
      optional.if_(is_on_road_surface, "first u of the road + 0.5 m").body(never),
      "Coordinate u of the road where x = 0. The height there is subtracted, so that y = 0 at x = "
@@ -575,8 +572,7 @@ constexpr CaseKey keys[] = {
      optional.if_(names_border, "that of the file, else \"keep\"").body(never),
      "Ground before and behind the road. \"keep\": level at the height of its end. \"zero\": level "
      "at the height 0 of the file, with a step at the end. \"repeat\": the road once more, for "
-     "wheels "
-     "with a width"},
+     "wheels with a width"},
     {"ground.fillet", "m", FIELD(ground->fillet), not_negative, optional.of(in_time_untold),
      "Radius that rounds all convex corners of the ground; 0: they are sharp"},
     {"ground.friction", "-", FIELD(ground->friction.coefficient),
@@ -639,9 +635,8 @@ constexpr CaseKey keys[] = {
      required.body(never), "Place x where that stretch ends"},
     {"ground.patch[].side", "-", FIELD(ground->friction.patches[k].side),
      one_from("both", "left", "right"), optional.body(never),
-     "Side of the line that the middle of the ground has below a wheel in three dimensions, seen "
-     "towards +x: \"right\" is lateral > 0. A node on the line counts by half. For plane bodies "
-     "\"both\""},
+     "Side of the line on the ground along which a wheel in three dimensions begins to roll, seen "
+     "towards +x. A node on the line counts by half. For plane bodies \"both\""},
     {"ground.patch[].factor", "-", FIELD(ground->friction.patches[k].factor), between(0, 100),
      required.body(never),
      "Factor of μ on that stretch; where patches overlap, their factors are multiplied"},

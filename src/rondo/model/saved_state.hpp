@@ -34,8 +34,8 @@ struct SavedState {
   /// For each node where the parts of the scheme "hati" meet: u and v of the coarse part [m],
   /// [m/s], and the multiplier [N/m]; (3 interface).
   std::vector<Vec2> interface;
-  /// Of model.friction_work (FrictionWork::save), which is no part of the integrator: whoever saves
-  /// this state sets it.
+  /// FrictionWork::save() of model.friction_work. The integrator does not save it: whoever saves
+  /// the integrator adds it.
   std::vector<double> friction_work;
   std::array<double, Ledger::n_numbers> ledger{};
 };

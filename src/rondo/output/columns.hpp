@@ -48,7 +48,7 @@ struct ContactRecord {
   double power = 0.0;     ///< that friction takes, over the extent                    [W/m²]
 };
 
-/// Of analyses that know velocities: the power that friction takes.
+/// The column of the power that friction takes, which analyses add that know velocities.
 [[nodiscard]] const Column<ContactRecord>& friction_column() noexcept;
 
 /// Features of a run beyond a plane body whose rim follows its tables. Each adds a group of columns

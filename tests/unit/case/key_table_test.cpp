@@ -119,7 +119,8 @@ TEST(KeyTable, EveryNumberHasItsBounds) {
 /// Nothing, or text, in the place of a value; a required key left out.
 TEST(KeyTable, EveryKeyHasItsType) {
   for (const CaseKey& key : case_keys()) {
-    if (key.path == "analysis.kind" || has_no_other_value(key)) continue;  // other keys hang on it
+    if (key.path == "analysis.kind" || has_no_other_value(key))
+      continue;  // its value decides about other keys
     const std::string path = path_of(key, 0);
     const auto faults = faults_of(write_case(case_with(key)), {path + "=2020-01-01"});
     ASSERT_EQ(faults.size(), 1U) << path;

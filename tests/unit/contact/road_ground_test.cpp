@@ -132,7 +132,7 @@ TEST(RoadGround, TheGapIsTheLeastDistanceAndTwoStepsFindIt) {
   EXPECT_LT(turned, 1e-9);  // [rad]
 }
 
-/// Of a sine wave that is the same across, against the distance to the curve itself.
+/// The road is a sine wave, the same all across; distances are compared with those to the curve.
 TEST(RoadGround, AFineWaveHasTheNormalsOfItsFunction) {
   constexpr double size = 0.01, k = 2.0 * std::numbers::pi / 0.4;
   const RoadGround ground{Surface(road_by([](double u, double) { return size * std::sin(k * u); },

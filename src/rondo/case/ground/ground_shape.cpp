@@ -30,19 +30,16 @@ void check_obstacles(CaseValues& in, const std::vector<contact::Obstacle>& obsta
                      const contact::GroundShape& base) {
   for (const contact::ObstacleFault& fault : contact::obstacle_faults(base, obstacles))
     in.refuse(key_of(fault.obstacle, fault.member), fault.message, fault.allowed);
-  for (std::size_t k = 0; k < obstacles.size(); ++k) {
+  for (std::size_t k = 0; k < obstacles.size(); ++k)
     if (obstacles[k].kind == contact::ObstacleKind::step && in.has(key_of(k, "length")))
       in.refuse(key_of(k, "length"), "a step has no length", "a \"cleat\"; or no length");
-  }
 }
 
-void check_road(CaseValues& in, const Case& c) {
-  if (is_on_road_surface(c) && !c.ground->obstacles.empty())
-    in.refuse(
-        item_of(list, 0),
-        "a road under a wheel with a width carries no obstacles: its surface has a slope of 1 "
-        "at the most",
-        "ground.profile in its place; or the obstacle in the heights of the file");
+void refuse_on_road(CaseValues& in) {
+  in.refuse(item_of(list, 0),
+            "a road under a wheel with a width carries no obstacles: its surface has a slope of 1 "
+            "at the most",
+            "ground.profile in its place; or the obstacle in the heights of the file");
 }
 
 /// Edges at an angle are those of one profile, seen normal to them: the ground below them is level.
@@ -105,14 +102,14 @@ void make_shape(CaseValues& in, Case& c) {
   c.ground->shape = base;
   if (c.ground->obstacles.empty() || !shape_faults(base).empty() || !all_good(in, *c.ground))
     return;
+  if (is_on_road_surface(c)) return refuse_on_road(in);
   const std::vector<contact::Obstacle> obstacles = normal_to_edges(c.ground->obstacles);
   check_obstacles(in, obstacles, base);
   check_angles(in, c);
-  check_road(in, c);
   if (!all_good(in, *c.ground)) return;
   contact::GroundShape whole = contact::with_obstacles(base, obstacles);
   check_whole(in, c, whole);
-  if (!in.good({list}) || is_on_road_surface(c)) return;
+  if (!in.good({list})) return;
   c.ground->shape = std::move(whole);
   c.ground->edge_angle = c.ground->obstacles.front().angle;
 }

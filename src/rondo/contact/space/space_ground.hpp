@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Rigid ground under a wheel with a width, in the ground frame (t1, n, t2) of
 /// core/ground_frame.hpp: a touch has a normal in space (docs/wheel3d.md, section 2). A profile
-/// that is extruded along t2 needs nothing but ground.hpp; other kinds of ground derive from
-/// SpaceGround.
+/// that is extruded along its edges needs nothing but ground.hpp and edge_axes.hpp; other kinds of
+/// ground derive from SpaceGround.
 #pragma once
 #include <array>
 #include <cmath>

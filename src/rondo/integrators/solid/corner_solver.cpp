@@ -62,6 +62,12 @@ contact::SpatialBlock coupling_of(const SolidContactStep& step, const Model& mod
   return w;
 }
 
+/// Turns a velocity of a row into the frame of its nodes: the normal of an edge's nodes is the
+/// opposite one, the direction of the ground's edge is the same.
+Vec3 of_node(const CornerRow& row, Vec3 a) noexcept {
+  return row.kind == ContactKind::facet ? a : Vec3{a.x, a.y, -a.z};
+}
+
 }  // namespace
 
 CornerSolver::CornerSolver(const Model& model)
@@ -307,16 +313,6 @@ void CornerSolver::finish(const SolidContactStep& step, CornerRow& row, State& s
   }
   add_active(step, row, state);
 }
-
-namespace {
-
-/// A velocity of a row in the frame of its nodes: that of an edge's nodes has the opposite normal,
-/// but the same t2.
-Vec3 of_node(const CornerRow& row, Vec3 a) noexcept {
-  return row.kind == ContactKind::facet ? a : Vec3{a.x, a.y, -a.z};
-}
-
-}  // namespace
 
 /// A node on a facet is pushed along the normal, the nodes of an edge against it.
 void CornerSolver::add_active(const SolidContactStep& step, const CornerRow& row,

@@ -130,7 +130,7 @@ double StandingWheel::friction_of_all() const {
   return friction_.is_constant() ? friction_.constant() : 1.0;
 }
 
-/// Of a pair of the window, by its pressure and place in the state.
+/// Returns the coefficient of a pair of the window, by its pressure and place in the state.
 double StandingWheel::coefficient(std::size_t pair) const {
   const RollingPair& p = window_.pairs()[pair];
   const auto row = static_cast<Index>(3 * pair);
@@ -142,7 +142,7 @@ double StandingWheel::coefficient(std::size_t pair) const {
                                 .pressure = extent > 0.0 ? normal / extent : 0.0});
 }
 
-/// Of all pairs of the window, for the increment that begins.
+/// Sets the coefficients of all pairs of the window for the increment that begins.
 void StandingWheel::find_friction() {
   if (friction_.is_constant()) return;
   for (std::size_t j = pairs_.size(); j < window_.pairs().size(); ++j)

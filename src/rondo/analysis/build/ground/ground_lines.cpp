@@ -103,10 +103,10 @@ void warn_of_unknown_pressures(const Case& c, Setup& s) {
   if (c.initial.state == InitialState::steady_rolling &&
       c.ground->friction.pressure_exponent != 0.0)
     s.warnings.push_back(
-        "initial.state: the pressures of the step before the first one are not known, and count as "
+        "initial.state: the first step does not know the pressures of a step before it, and takes "
         "a "
-        "tenth of ground.friction.pressure_reference: the tangential force of the first step is "
-        "that of another coefficient");
+        "tenth of ground.friction.pressure_reference: its tangential force is that of another "
+        "coefficient");
 }
 
 }  // namespace
