@@ -61,6 +61,8 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   [[nodiscard]] Setup& own_setup() noexcept { return setup_; }
   /// The law sees velocities alone. Gaps in it push bodies out of the ground, which does work.
   [[nodiscard]] virtual bool guards_impacts() const noexcept { return true; }
+  /// Largest relative residual of the law of contact.
+  [[nodiscard]] virtual double contact_bound() const noexcept { return residual_bound; }
   /// Which step it makes, in words.
   [[nodiscard]] virtual std::string told_integrator() const;
   /// While it runs, or at its end.

@@ -221,8 +221,8 @@ OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics
             true};
   if (bounds.guards_impacts && impact_gain(b) > impact_gain_bound)
     return {created_by_impacts(b, impact_gain_bound, bounds), true};
-  if (!(contact.residual <= residual_bound))
-    return {fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, residual_bound),
+  if (!(contact.residual <= bounds.contact))
+    return {fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, bounds.contact),
             false};
   return {};
 }

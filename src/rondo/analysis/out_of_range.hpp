@@ -7,6 +7,7 @@
 
 #include "rondo/analysis/build/crush/crush_setup.hpp"
 #include "rondo/case/setup.hpp"
+#include "rondo/output/run_options.hpp"
 #include "rondo/output/contact_statistics.hpp"
 
 namespace rondo::study {
@@ -34,6 +35,7 @@ struct Bounds {
   std::string impact_cure;     ///< result of impact_cure()
   bool guards_impacts = true;  ///< the run ends above impact_gain_bound
   std::string_view energy_unit = "J/m";
+  double contact = residual_bound;  ///< residual of the law of contact, relative
 };
 
 /// Energy that impacts have created, over the energy exchanged: above the first it is spoken of,

@@ -10,6 +10,13 @@
 namespace rondo::fem {
 namespace {
 
+/// Whether two corners of a hexahedron have an edge in common: those of a face and of the opposite
+/// one come one after the other.
+bool joined(int a, int b) noexcept {
+  if (a / 4 != b / 4) return a % 4 == b % 4;
+  return (a % 4 + 1) % 4 == b % 4 || (b % 4 + 1) % 4 == a % 4;
+}
+
 /// Neighbours of each contact node.
 struct Beside {
   std::vector<std::vector<int>> by_edge, by_cell;  ///< (contact) ascending, each once
@@ -29,6 +36,16 @@ Beside find_beside(const mesh::Mesh& mesh, std::span<const int> place, std::size
       }
     }
   }
+  for (const mesh::Hexahedron& cell : mesh.hexahedra)
+    for (int a = 0; a < 8; ++a) {
+      if (place[at(cell[at(a)])] < 0) continue;
+      const std::size_t i = at(place[at(cell[at(a)])]);
+      for (int b = 0; b < 8; ++b) {
+        if (b == a) continue;
+        beside.by_cell[i].push_back(cell[at(b)]);
+        if (joined(a, b)) beside.by_edge[i].push_back(cell[at(b)]);
+      }
+    }
   for (auto* lists : {&beside.by_edge, &beside.by_cell})
     for (std::vector<int>& list : *lists) {
       std::ranges::sort(list);

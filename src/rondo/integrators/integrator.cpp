@@ -40,6 +40,7 @@ std::unique_ptr<Integrator> make_integrator(const Model& model, const State& sta
       return std::make_unique<SolidWheelIntegrator>(model, start);
     case StepKind::general:
     case StepKind::reduced:  // of no model
+    case StepKind::solid_reduced:
       break;
   }
   return std::make_unique<GeneralIntegrator>(model, start);

@@ -34,8 +34,6 @@ std::size_t works_of(const WheelModel& wheel) noexcept {
 
 }  // namespace
 
-/// One table for a spin that stays; else three between 0 and the largest, where a polynomial in s²
-/// errs least (Chebyshev).
 WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonics,
                             const KnownSpins& spins, const WholeMesh* whole,
                             const WheelViscosity& viscosity) {
@@ -55,6 +53,12 @@ WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonic
       return {ring_residual(ring, wheel.harmonics, square, ResidualForm::convected), {}, {}};
     return creep_residual(ring, wheel.harmonics, square, wheel.creep);
   };
+  spread_residuals(spins, wheel, residual);
+  return wheel;
+}
+
+void spread_residuals(const KnownSpins& spins, WheelModel& wheel,
+                      const std::function<CreepResidual(double)>& residual) {
   const auto keep = [&](CreepResidual of) {
     wheel.residuals.push_back(std::move(of.at_once));
     if (!wheel.creep.empty()) wheel.later.push_back(std::move(of.later));
@@ -64,7 +68,7 @@ WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonic
     wheel.largest_spin = spins.least;
     wheel.squares = {spins.least * spins.least};
     keep(residual(wheel.squares[0]));
-    return wheel;
+    return;
   }
   const auto place = [](double most, int i) {
     return 0.5 * most * most * (1.0 - std::cos(std::numbers::pi * (2 * i + 1) / 6.0));
@@ -79,7 +83,6 @@ WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonic
   for (int i = 0; i < 3; ++i) wheel.squares.push_back(place(most, i));
   for (int i = 0; i < 2; ++i) keep(residual(wheel.squares[at(i)]));
   keep(std::move(last));
-  return wheel;
 }
 
 WheelRun::WheelRun(const dynamics::Model& model, const Ring& ring, const WheelModel& wheel,

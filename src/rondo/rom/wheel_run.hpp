@@ -2,6 +2,7 @@
 /// @file  The steps of a reduced wheel with exact contact (wheel/ring_wheel.hpp) with the interface
 /// of a full run, on a rim that follows its tables or moves freely.
 #pragma once
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -36,6 +37,11 @@ struct WheelViscosity {
   std::vector<fem::ViscousBranch> branches{};  ///< the same ones in all of the body; none: elastic
   double stiffness_damping = 0.0;              ///< β beside them [s]
 };
+/// Finds the tables of a wheel: one for a spin that stays; else three between 0 and the largest,
+/// where a polynomial in s² errs least (Chebyshev). @param residual by s²
+void spread_residuals(const KnownSpins& spins, WheelModel& wheel,
+                      const std::function<CreepResidual(double)>& residual);
+
 /// @param whole of a ring of one sector (whole_mesh.hpp); of others null
 [[nodiscard]] WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonics,
                                           const KnownSpins& spins, const WholeMesh* whole = nullptr,

@@ -33,6 +33,9 @@ void refuse_combinations(const Case& c, const dynamics::Model& model, dynamics::
   const dynamics::Features all = features_of(c, model) | more;
   for (const dynamics::Limit& limit : dynamics::step_limits())
     if (limit.is_refusal() && limit.holds_for(all)) throw refusal_of(c, model, limit);
+  if ((all & dynamics::has::reduced) == 0) return;
+  const auto kind = model.solid ? dynamics::StepKind::solid_reduced : dynamics::StepKind::reduced;
+  if (const dynamics::Limit* const why = why_not(kind, all)) throw refusal_of(c, model, *why);
 }
 
 std::string told_step(const Case& c, const dynamics::Model& model) {

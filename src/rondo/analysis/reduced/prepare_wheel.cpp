@@ -51,9 +51,11 @@ ExpectedContact expected(const Case& c, bool led, const Setup& setup) {
   const bool lowers_itself = led || (c.rim && c.rim->free_y);
   if (!lowers_itself) e.length = 2.0 * std::sqrt(radius * radius - above * above);
   const auto n_nodes = static_cast<double>(setup.model.contact->nodes.size());
-  e.spacing = 2.0 * std::numbers::pi * radius / n_nodes;
+  const bool sectors = setup.model.sector || setup.model.solid;
+  const double around = setup.model.solid ? setup.mesh.n_sectors : n_nodes;
+  e.spacing = 2.0 * std::numbers::pi * radius / around;
   if (e.length < e.spacing) e.length = 0.0;  // it may not touch at all
-  const double n = setup.model.sector ? setup.mesh.n_sectors : n_nodes;
+  const double n = sectors ? setup.mesh.n_sectors : n_nodes;
   if (e.spin > 0.0) e.pass = 2.0 * std::numbers::pi / n / e.spin;
   return e;
 }
@@ -95,13 +97,13 @@ rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
     if (*options.reduced_modes < 0 || *options.reduced_modes > 100000)
       throw request_error("--modes", std::to_string(*options.reduced_modes),
                           "is no number of modes", "a whole number from 0 to 100000");
-    if (!setup.model.sector && *options.reduced_modes > most_modes_of_mesh)
+    if (!setup.model.sector && !setup.model.solid && *options.reduced_modes > most_modes_of_mesh)
       throw request_error("--modes", std::to_string(*options.reduced_modes),
                           "without equal sectors so many modes take too long to find",
                           fmt::format("a whole number from 0 to {}", most_modes_of_mesh));
     return {.wanted = static_cast<int>(*options.reduced_modes)};
   }
-  const bool tread = setup.model.sector &&
+  const bool tread = setup.model.sector && !setup.model.solid &&
                      setup.mesh.boundary.size() > static_cast<std::size_t>(setup.mesh.n_sectors);
   return {.wanted = tread ? most_modes_of_tread : most_modes,
           .highest = highest_mode / setup.model.dt,
@@ -164,6 +166,19 @@ void move_masses(const Case& c, Setup& setup) {
         "at least two layers of elements");
   }
   model.lumped_mass = std::exchange(model.mass, std::move(moved.mass));
+}
+
+/// (n_local) What pressures and the state about which a wheel is linear do to each sector.
+std::vector<Vec3> constant_load(const Case& c, const Setup& setup) {
+  const dynamics::SolidBody& body = *setup.model.solid;
+  for (std::size_t k = 0; k < c.pressures.size(); ++k)
+    if (c.pressures[k].pressure.points().size() > 1)
+      throw case_error(c, item_of("load.pressure", k) + ".pressure",
+                       "pressures on a reduced wheel stay as they are", "a number");
+  std::vector<Vec3> load(body.pressures.empty() ? 0 : body.sector.n_local());
+  for (const dynamics::SolidPressure& p : body.pressures)
+    for (std::size_t a = 0; a < load.size(); ++a) load[a] += p.pressure.at(0.0) * p.force[a];
+  return load;
 }
 
 void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
@@ -243,8 +258,9 @@ std::vector<rom::RingHarmonic> harmonics_of(const Case& c, const RunOptions& opt
   if (options.reduced.empty() || options.reduced == wheel_of_case) {
     const rom::ModeChoice choice = modes_of(options, setup);
     std::vector<rom::RingHarmonic> found =
-        wheel.whole ? rom::whole_modes(*wheel.ring, whole_of(setup), choice)
-                    : rom::ring_modes(*wheel.ring, choice);
+        wheel.solid   ? rom::solid_modes(*wheel.solid, choice)
+        : wheel.whole ? rom::whole_modes(*wheel.ring, whole_of(setup), choice)
+                      : rom::ring_modes(*wheel.ring, choice);
     if (const int n = rom::count_modes(found); options.reduced_modes && n < choice.wanted)
       wheel.warnings.push_back(fmt::format("--modes {}: the wheel has {} modes", choice.wanted, n));
     return found;
@@ -254,6 +270,10 @@ std::vector<rom::RingHarmonic> harmonics_of(const Case& c, const RunOptions& opt
         "--modes", std::to_string(*options.reduced_modes),
         "is of modes that are found in the run, not of those of a file",
         "rondo reduce CASE.toml --modes N -o wheel.h5; or --reduced without a file");
+  if (wheel.solid)
+    throw request_error("--reduced", options.reduced.string(),
+                        "the modes of a wheel in three dimensions are not kept in a file",
+                        "--reduced without a file: they are found in seconds");
   WheelFile file = read_wheel_file(options.reduced, c, setup, *wheel.ring);
   wheel.basis = file.basis;
   wheel.file = options.reduced.string();
@@ -283,6 +303,13 @@ void begin_wheel(const Case& c, const RunOptions& options, std::optional<double>
       step_of(led ? std::numeric_limits<double>::infinity() : c.time.end, options, wheel.expected);
   setup.n_steps = count_steps(c, setup.model.dt);
   const dynamics::Model& model = setup.model;
+  if (model.solid) {
+    wheel.solid.emplace(rom::make_solid_ring(model.solid->sector, model.mass, model.reference,
+                                             model.solid->axial, model.contact->nodes));
+    wheel.solid->load = constant_load(c, setup);
+    wheel.solid->threads = model.threads;
+    return;
+  }
   if (!model.sector) wheel.whole = rom::one_sector(whole_of(setup));
   wheel.ring.emplace(rom::make_ring(wheel.whole ? *wheel.whole : *model.sector, model.mass,
                                     model.reference, model.contact->nodes));
@@ -292,7 +319,9 @@ void complete_wheel(const Case& c, std::optional<double> led,
                     std::vector<rom::RingHarmonic> harmonics, Setup& setup, PreparedWheel& wheel) {
   const rom::KnownSpins spins = spins_of(c, led, wheel.expected.spin, radius_of(setup));
   const rom::WheelViscosity viscosity = viscosity_of(setup);
-  if (wheel.whole) {
+  if (wheel.solid) {
+    wheel.model = rom::make_solid_model(*wheel.solid, std::move(harmonics), spins);
+  } else if (wheel.whole) {
     const rom::WholeMesh whole = whole_of(setup);
     wheel.model =
         rom::make_wheel_model(*wheel.ring, std::move(harmonics), spins, &whole, viscosity);
@@ -306,8 +335,24 @@ void complete_wheel(const Case& c, std::optional<double> led,
                                  : std::string();
   setup.reduced = fmt::format("a reduced wheel of {} modes{} with a step of {:.17g} s",
                               wheel.n_modes(), of_pod, setup.model.dt);
-  setup.saved_numbers = rom::WheelRun::n_numbers(setup.model, *wheel.ring, wheel.model);
+  setup.saved_numbers = wheel.solid
+                            ? rom::SolidWheelRun::n_numbers(*wheel.solid, wheel.model)
+                            : rom::WheelRun::n_numbers(setup.model, *wheel.ring, wheel.model);
   warn_of(c, setup, led.has_value(), wheel);
+}
+
+std::unique_ptr<dynamics::Integrator> make_steps(const Setup& setup, PreparedWheel& wheel,
+                                                 const dynamics::State& start) {
+  if (wheel.solid)
+    return std::make_unique<rom::SolidWheelRun>(setup.model, *wheel.solid, wheel.model,
+                                                wheel.law_residual, wheel.figures, start);
+  return std::make_unique<rom::WheelRun>(setup.model, *wheel.ring, wheel.model, wheel.figures,
+                                         start);
+}
+
+bool is_saved(const Setup& setup, const PreparedWheel& wheel, std::span<const double> numbers) {
+  return wheel.solid ? rom::SolidWheel::is_saved(*wheel.solid, wheel.model, numbers)
+                     : rom::WheelRun::is_saved(setup.model, *wheel.ring, wheel.model, numbers);
 }
 
 void prepare_wheel(const Case& c, const RunOptions& options, std::optional<double> led,

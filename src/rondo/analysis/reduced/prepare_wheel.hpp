@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  A reduced wheel with exact contact (docs/reduced.md): step, modes and tables of a case.
 #pragma once
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "rondo/analysis/reduced/wheel_file.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/output/run_options.hpp"
+#include "rondo/rom/solid_wheel_run.hpp"
 #include "rondo/rom/wheel_run.hpp"
 
 namespace rondo::study {
@@ -28,6 +31,8 @@ struct ExpectedContact {
 struct PreparedWheel {
   std::optional<fem::SectorStiffness> whole;  ///< of a mesh without equal sectors
   std::optional<rom::Ring> ring;              ///< of this or of the setup's sector
+  std::optional<rom::SolidRing> solid;        ///< in place of `ring`, in three dimensions
+  double law_residual = 1e-6;                 ///< of the law of contact, in three dimensions
   rom::WheelModel model;
   WheelBasis basis = WheelBasis::eigenmodes;
   std::string file;  ///< of its modes; empty: none
@@ -59,6 +64,15 @@ void begin_wheel(const Case& c, const RunOptions& options, std::optional<double>
 /// The tables of these modes. @pre begin_wheel()
 void complete_wheel(const Case& c, std::optional<double> led,
                     std::vector<rom::RingHarmonic> harmonics, Setup& setup, PreparedWheel& wheel);
+
+/// The steps of the wheel.
+[[nodiscard]] std::unique_ptr<dynamics::Integrator> make_steps(const Setup& setup,
+                                                               PreparedWheel& wheel,
+                                                               const dynamics::State& start);
+
+/// Whether numbers may come from a checkpoint of the wheel.
+[[nodiscard]] bool is_saved(const Setup& setup, const PreparedWheel& wheel,
+                            std::span<const double> numbers);
 
 /// Both, with the modes that the options ask for. @throws FileError, InputError: of a file of them
 void prepare_wheel(const Case& c, const RunOptions& options, std::optional<double> led,

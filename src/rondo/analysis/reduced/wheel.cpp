@@ -141,8 +141,7 @@ class WheelAnalysis final : public DynamicAnalysis {
   }
   [[nodiscard]] const Checkpoint* find(const std::filesystem::path& directory) override {
     const Checkpoint* found = DynamicAnalysis::find(directory);
-    if (found &&
-        !rom::WheelRun::is_saved(setup().model, *wheel_.ring, wheel_.model, found->state.ring))
+    if (found && !is_saved(setup(), wheel_, found->state.ring))
       throw FileError((directory / checkpoint_name).string(),
                       "is damaged: its numbers are not those of a reduced wheel");
     return found;
@@ -174,13 +173,15 @@ class WheelAnalysis final : public DynamicAnalysis {
 
  protected:
   [[nodiscard]] bool guards_impacts() const noexcept override { return false; }
+  [[nodiscard]] double contact_bound() const noexcept override {
+    return wheel_.solid ? wheel_.law_residual : residual_bound;
+  }
   [[nodiscard]] std::string told_integrator() const override {
     return "reduced wheel with exact contact";
   }
   [[nodiscard]] std::unique_ptr<dynamics::Integrator> make_integrator(
       dynamics::State& start) override {
-    return std::make_unique<rom::WheelRun>(setup().model, *wheel_.ring, wheel_.model,
-                                           wheel_.figures, start);
+    return make_steps(setup(), wheel_, start);
   }
 
  private:

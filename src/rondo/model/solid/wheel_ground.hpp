@@ -4,6 +4,7 @@
 /// (t1, n, t2) [m].
 #pragma once
 #include "rondo/contact/space/space_ground.hpp"
+#include "rondo/core/contract.hpp"
 #include "rondo/model/model.hpp"
 
 namespace rondo::dynamics {
@@ -19,6 +20,16 @@ namespace rondo::dynamics {
   return contact.space
              ? contact.space->touches(place)
              : contact::extruded(contact.ground.touches(on_profile(contact, place)), contact.axes);
+}
+
+/// The nearest place of the surface, also for a point outside of the ground. @pre a profile
+[[nodiscard]] inline contact::SpaceTouch nearest_in_space(const ContactModel& contact,
+                                                          Vec3 place) noexcept {
+  RONDO_DEMAND(!contact.space);
+  const contact::Touch near = contact.ground.facet_near(on_profile(contact, place));
+  return {near.gap,
+          {.normal = contact.axes.to_ground(near.normal),
+           .line = contact.axes.to_ground({0.0, 0.0, 1.0})}};
 }
 
 /// No ground above this height between two places along t1 [m]; of a profile anywhere.

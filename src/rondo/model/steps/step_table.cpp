@@ -67,6 +67,7 @@ constexpr std::array steps{
     StepRow{StepKind::solid_wheel, "general 3-D on a loaded rim",
             has::three_dimensions | has::loaded_rim},
     StepRow{StepKind::reduced, "reduced", has::reduced},
+    StepRow{StepKind::solid_reduced, "reduced 3-D", has::three_dimensions | has::reduced},
 };
 
 constexpr std::uint32_t bit(StepKind kind) {
@@ -75,12 +76,15 @@ constexpr std::uint32_t bit(StepKind kind) {
 constexpr std::uint32_t cyclic = bit(StepKind::cyclic), sparse = bit(StepKind::sparse),
                         bodies = bit(StepKind::bodies), general = bit(StepKind::general),
                         wheel = bit(StepKind::wheel), own_hati = bit(StepKind::hati),
+                        disk_reduced = bit(StepKind::reduced),
+                        solid_reduced = bit(StepKind::solid_reduced),
                         fused = cyclic | sparse | bodies, plane = fused | general | wheel,
                         any = ~0U;
 
 constexpr std::array limits{
     // What some steps do not support -------------------------------------------------------------
-    Limit{has::three_dimensions, 0, plane | own_hati, "the step is for plane bodies"},
+    Limit{has::three_dimensions, 0, plane | own_hati | disk_reduced,
+          "the step is for plane bodies"},
     Limit{has::mesh_file, 0, cyclic, "a mesh from a file is not known to have equal sectors"},
     Limit{has::assembled, 0, cyclic, "the stiffness is assembled, not that of one sector"},
     Limit{has::loaded_rim, 0, bodies | general | bit(StepKind::solid),
@@ -114,7 +118,17 @@ constexpr std::array limits{
           "contacts"},
     Limit{has::hati, 0, plane, "the scheme \"hati\" has a step of its own"},
     Limit{has::other_scheme, 0, fused, "a scheme other than \"symplectic\" needs the general step"},
-    Limit{has::reduced, 0, ~bit(StepKind::reduced), "a reduced wheel has a step of its own"},
+    Limit{has::reduced, 0, ~(disk_reduced | solid_reduced),
+          "a reduced wheel has a step of its own"},
+    Limit{has::pressure, 0, disk_reduced,
+          "a reduced disk is one that its rim holds, on the ground, without pressures"},
+    Limit{has::friction_law, 0, disk_reduced, "a reduced disk has one coefficient of friction"},
+    Limit{has::loaded_rim, 0, solid_reduced,
+          "the rim of a reduced wheel in three dimensions follows its tables"},
+    Limit{has::nonlinear_cords, 0, solid_reduced,
+          "a reduced wheel is linear about its inflated state"},
+    Limit{has::viscosity, 0, solid_reduced,
+          "a reduced wheel in three dimensions has stiffness damping, and no viscous branches"},
     // What no step supports ----------------------------------------------------------------------
     Limit{has::free_bodies, has::three_dimensions, any,
           "a wheel in three dimensions is held by its rim"},
@@ -206,8 +220,6 @@ constexpr std::array limits{
     Limit{has::other_scheme, has::rubber, any, "rubber needs the scheme \"symplectic\""},
     Limit{has::hati, has::own_material, any, "the scheme \"hati\" needs linear materials"},
     // What a reduced wheel does not support -----------------------------------------------------
-    Limit{has::three_dimensions, has::reduced, any,
-          "a reduced wheel is plane, and this one is in three dimensions"},
     Limit{has::free_bodies, has::reduced, any,
           "a reduced run is for one wheel that its rim holds, on the ground, without free bodies"},
     Limit{has::body_contact, has::reduced, any,
@@ -216,8 +228,6 @@ constexpr std::array limits{
     Limit{has::mesh_file, has::reduced | has::loaded_rim, any,
           "a reduced wheel on a rim that forces move needs equal sectors, which a mesh from a file "
           "is not known to have"},
-    Limit{has::pressure, has::reduced, any,
-          "a reduced run is for one wheel that its rim holds, on the ground, without pressures"},
     Limit{has::sharp_corners, has::reduced, any,
           "a reduced run has contact at nodes only, not at sharp corners"},
     Limit{has::rubber, has::reduced, any,
@@ -232,7 +242,6 @@ constexpr std::array limits{
     Limit{has::energy_safe, has::reduced, any,
           "ground.impact = \"energy-safe\" is a law of velocities, and that of a reduced wheel is "
           "one of gaps"},
-    Limit{has::friction_law, has::reduced, any, "a reduced wheel has one coefficient of friction"},
     Limit{has::friction_work, has::reduced, any,
           "the contacts of a reduced wheel have forces and gaps, but no slip of their own"},
     Limit{has::stress_stiffening, has::reduced | has::viscosity, any,

@@ -60,16 +60,17 @@ struct FeatureName {
 
 /// The time steps; among those with the same capabilities, the faster one comes first.
 enum class StepKind {
-  cyclic,        ///< integrators/fused
-  sparse,        ///< integrators/fused
-  bodies,        ///< integrators/bodies
-  wheel,         ///< integrators/general, on a loaded rim
-  general,       ///< integrators/general
-  hati,          ///< integrators/hati
-  solid_cyclic,  ///< integrators/fused/solid
-  solid,         ///< integrators/solid: the reference, which no model needs
-  solid_wheel,   ///< integrators/solid, on a loaded rim
-  reduced,       ///< rom
+  cyclic,         ///< integrators/fused
+  sparse,         ///< integrators/fused
+  bodies,         ///< integrators/bodies
+  wheel,          ///< integrators/general, on a loaded rim
+  general,        ///< integrators/general
+  hati,           ///< integrators/hati
+  solid_cyclic,   ///< integrators/fused/solid
+  solid,          ///< integrators/solid: the reference, which no model needs
+  solid_wheel,    ///< integrators/solid, on a loaded rim
+  reduced,        ///< rom/wheel
+  solid_reduced,  ///< rom/solid
 };
 
 struct StepRow {

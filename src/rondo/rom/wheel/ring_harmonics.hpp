@@ -50,6 +50,11 @@ struct RingHarmonic {
   Eigen::VectorXcd turned;       ///< (r) φᴴ M J X; harmonic 0
   Eigen::VectorXcd translation;  ///< (r) l = φᵀ M (1, -i of each node); harmonic 1, of a
                                  ///< ring of one sector harmonic 0
+  // Of a ring in three dimensions (solid/solid_ring.hpp):
+  Eigen::MatrixXcd planar{};  ///< (r, r) φᴴ M P φ, with P the radial and tangential components
+  Eigen::VectorXcd axial{};   ///< (r) φᴴ M (0, 0, 1 of each node); harmonic 0
+  Eigen::VectorXcd tilt{};    ///< (r) φᴴ M (0, 0, x + iy of each node); harmonic 1
+  Eigen::VectorXcd load{};    ///< (r) φᴴ of the constant load; harmonic 0
 
   [[nodiscard]] double weight() const noexcept { return k == 0 ? 1.0 : 2.0; }
 };

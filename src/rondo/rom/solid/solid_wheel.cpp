@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/rom/solid/solid_wheel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
+#include "rondo/rom/wheel/ring_waves.hpp"
+
+namespace rondo::rom {
+namespace {
+
+using Eigen::Index;
+
+/// Sectors for which the compliance is made beyond those that are needed.
+constexpr int spare_sectors = 4;
+
+}  // namespace
+
+SolidWheel::Modes::Modes(const RingHarmonic& of) {
+  const Index r = of.squares.size(), c = of.contact.rows();
+  for (Vector* v : {&state, &before, &work}) v->setZero(2 * r);
+  for (Vector* v : {&force, &outside, &held, &pushed}) v->setZero(r);
+  for (Vector* v : {&ground, &contact, &answered}) v->setZero(c);
+  for (Matrix* m : {&stiff, &inverse, &step}) m->setZero(r, r);
+  one.setIdentity(r, r);
+  reply.setZero(r, c);
+  answer.setZero(c, c);
+}
+
+SolidWheel::SolidWheel(const SolidRing& ring, const WheelModel& model,
+                       const dynamics::ContactModel& ground, const SolidWheelSettings& settings)
+    : ring_(ring),
+      harmonics_(model.harmonics),
+      model_(model),
+      ground_(ground),
+      settings_(settings),
+      n_contact_(static_cast<int>(ring.contact.size())),
+      flat_(!ground.space && ground.ground.bends().empty() && !ground.ground.has_concave_corners()),
+      law_(settings.law_residual) {
+  const std::vector<RingResidual>& residuals = model.residuals;
+  RONDO_DEMAND(
+      residuals.size() == model.squares.size() && (residuals.size() == 1 || residuals.size() == 3),
+      residuals.size(), model.squares.size());
+  RONDO_DEMAND(settings.dt > 0.0 && model.radius > 0.0 && settings.theta >= 0.5, settings.dt,
+               model.radius, settings.theta);
+  const std::size_t n = ring.contact.size() * at(ring.n_sectors());
+  memory_.resize(n);
+  for (const int row : ring.contact) {
+    const auto node = static_cast<int>(ring.stiffness.node(at(row), 0));
+    const auto found = std::ranges::find(ground.nodes, node);
+    RONDO_DEMAND(found != ground.nodes.end(), node);
+    area_.push_back(ground.tributary[at(found - ground.nodes.begin())]);
+  }
+  centrifugal_ = residuals.front().centrifugal;
+  if (residuals.size() > 1) tables_.resize(residuals.front().blocks.size());
+  near_.reserve(n);
+  seen_.reserve(n);
+  moved_.reserve(3 * n);
+  solved_.reserve(n);
+  touch_.reserve(n);
+  cones_.reserve(n);
+  contacts_.reserve(n);
+  for (const RingHarmonic& h : harmonics_) modes_.emplace_back(h);
+}
+
+/// The residual of a spin.
+void SolidWheel::set_residual(double spin) {
+  n_made_ = 0;
+  if (tables_.empty()) return;
+  const double square = spin * spin;
+  centrifugal_.setZero();
+  Eigen::Map<Eigen::VectorXd> sum(tables_.data(), static_cast<Index>(tables_.size()));
+  sum.setZero();
+  for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
+    double share = 1.0;
+    for (std::size_t b = 0; b < model_.residuals.size(); ++b)
+      if (b != a) share *= (square - model_.squares[b]) / (model_.squares[a] - model_.squares[b]);
+    const RingResidual& of = model_.residuals[a];
+    centrifugal_ += share * of.centrifugal;
+    sum += share * Eigen::Map<const Eigen::VectorXd>(of.blocks.data(), sum.size());
+  }
+}
+
+/// G of a lag.
+Eigen::Map<const Eigen::MatrixXd> SolidWheel::beyond(int lag) const {
+  const double* blocks = tables_.empty() ? model_.residuals.front().blocks.data() : tables_.data();
+  const Index size = ring_.n_contact();
+  return {blocks + wrapped(lag) * size * size, size, size};
+}
+
+/// What the residual of a node does by a force on another.
+Vec3 SolidWheel::product(int to, int from, Vec3 force) const noexcept {
+  const auto g = beyond(sector(to) - sector(from));
+  const Index row = Index{3} * local(to), column = Index{3} * local(from);
+  const auto line = [&](Index r) {
+    return g(row + r, column) * force.x + g(row + r, column + 1) * force.y +
+           g(row + r, column + 2) * force.z;
+  };
+  return {line(0), line(1), line(2)};
+}
+
+/// What the residual of all nodes that are remembered does, by the tables of the spin.
+void SolidWheel::renew_residuals() {
+  for (const int to : seen_) {
+    Vec3 u;
+    for (const int from : seen_)
+      if (const Vec3 force = memory_of(from).filtered; force != Vec3{})
+        u += product(to, from, force);
+    memory_of(to).residual = u;
+  }
+}
+
+/// Finds the matrices of a harmonic. With h = ½Δt the middle of the step solves
+/// [c, -h; hL, c + hD] (y_m, p_m) = (y, p + hf).
+void SolidWheel::fill_step(const RingHarmonic& of, double spin, double rate, Modes& s) {
+  const double half = 0.5 * settings_.dt;
+  s.turn = 1.0 + half * Complexes(0.0, of.k * spin);
+  s.lever = half / s.turn;
+  s.stiff = rate * of.coriolis - spin * spin * of.planar;
+  s.stiff.diagonal().array() += of.squares.array();
+  const auto damping = settings_.mass_damping + settings_.stiffness_damping * of.squares.array();
+  s.step = 2.0 * half * spin * of.coriolis + half * s.lever * s.stiff;
+  s.step.diagonal().array() += s.turn + half * damping;
+  s.factor.compute(s.step);
+  s.inverse = s.factor.solve(s.one);
+  const double share = settings_.theta * settings_.dt * of.weight() / ring_.n_sectors();
+  s.reply.noalias() = s.inverse * of.contact.adjoint();
+  s.answer.noalias() = share * s.lever * of.contact * s.reply;
+}
+
+/// (2r) What a force on the modes does in a step.
+void SolidWheel::push_by(const Modes& s, const Vector& force, Vector& out) const {
+  const Index r = s.force.size();
+  out.tail(r).noalias() = s.inverse * force;
+  out.tail(r) *= settings_.dt;
+  out.head(r) = s.lever * out.tail(r);
+}
+
+/// The matrices of a step, and the answers of the contact nodes at its end.
+void SolidWheel::use_spin(const SolidMotion& motion) {
+  const WheelMotion& m = motion.plane;
+  const double rate = m.kept_spin ? 0.0 : m.spin_rate, end = m.kept_spin.value_or(m.spin_next);
+  new_table_ = rate != 0.0 || !has_matrices_ || spin_rate_ != 0.0 || spin_ != end;
+  if (!new_table_) return;
+  residual_before_ = residual_stored();
+  const bool other_spin = spin_ != end;
+  spin_ = end;
+  spin_rate_ = rate;
+  const double spin = rate == 0.0 ? end : (m.angle_next - m.angle) / settings_.dt;
+  set_residual(end);
+  for (std::size_t h = 0; h < harmonics_.size(); ++h)
+    fill_step(harmonics_[h], spin, rate, modes_[h]);
+  if (other_spin && !tables_.empty()) renew_residuals();
+  has_matrices_ = true;
+}
+
+/// W of the window: G/(1 + β/Δt) and the answer of the modes, block after block by the lag.
+void SolidWheel::make_window() {
+  if (n_window_ <= n_made_) return;
+  n_made_ = std::min(n_window_ + spare_sectors, ring_.n_sectors());
+  const Index size = ring_.n_contact();
+  window_.resize(size * n_made_);
+  const double share = 1.0 - filter();
+  Eigen::MatrixXd block(size, size);
+  for (int lag = 1 - n_made_; lag < n_made_; ++lag) {
+    block = share * beyond(lag);
+    for (std::size_t h = 0; h < modes_.size(); ++h) {
+      const Complex turn =
+          ring_.stiffness
+              .turn[at(static_cast<long long>(harmonics_[h].k) * wrapped(lag) % ring_.n_sectors())];
+      block += turn.re * modes_[h].answer.real() - turn.im * modes_[h].answer.imag();
+    }
+    for (int to = std::max(0, lag); to < std::min(n_made_, n_made_ + lag); ++to)
+      for (Index c = 0; c < size; ++c)
+        std::copy_n(block.col(c).data(), size, window_.column((to - lag) * size + c) + to * size);
+  }
+  window_.round();
+}
+
+/// The modes at the end of the step without new forces.
+void SolidWheel::move_modes(const SolidMotion& motion) {
+  const WheelMotion& m = motion.plane;
+  const double spin = (m.angle_next - m.angle) / settings_.dt;
+  const Vec3 pull = motion.attitude_next.from_fixed(Vec3(m.pull, motion.lateral_pull));
+  const Complexes back(pull.x, -pull.y);  // conj
+  const Complexes turning(motion.turning.x, -motion.turning.y),
+      turning_rate(motion.turning_rate.x, -motion.turning_rate.y);
+  for (std::size_t h = 0; h < modes_.size(); ++h) {
+    Modes& s = modes_[h];
+    const RingHarmonic& of = harmonics_[h];
+    const Index r = of.squares.size();
+    s.outside.setZero();
+    if (of.k == 0)
+      s.outside =
+          spin * spin * of.reference - m.spin_rate * of.turned - pull.z * of.axial + of.load;
+    if (of.k == 1) {
+      s.outside -= 0.5 * back * of.translation.conjugate();
+      s.outside -= (spin * turning - Complexes(0.0, 0.5) * turning_rate) * of.tilt;
+    }
+    if (m.kept_spin) s.outside.noalias() -= m.spin_rate * (of.coriolis * s.state.head(r));
+    s.before = s.state;
+    s.held = (1.0 - settings_.theta) * s.force;
+    s.pushed = s.outside + s.held;
+    const auto y = s.before.head(r), p = s.before.tail(r);
+    s.pushed *= 0.5 * settings_.dt;
+    s.pushed += p;
+    s.pushed.noalias() -= s.lever * (s.stiff * y);
+    s.state.tail(r).noalias() = s.inverse * s.pushed;  // the middle
+    s.state.head(r) = 2.0 * (y / s.turn + s.lever * s.state.tail(r)) - y;
+    s.state.tail(r) = 2.0 * s.state.tail(r) - p;
+  }
+  move_contact();
+}
+
+/// What the modes do to the contact nodes.
+void SolidWheel::move_contact() {
+  for (std::size_t h = 0; h < modes_.size(); ++h)
+    modes_[h].contact.noalias() =
+        harmonics_[h].contact * modes_[h].state.head(harmonics_[h].squares.size());
+}
+
+/// Displacement of a contact node by the modes. @param answered that by the forces of the step
+/// alone
+Vec3 SolidWheel::modal(int node, Complex turn, bool answered) const noexcept {
+  const Index c = Index{3} * local(node);
+  Vec3 u;
+  for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
+    const Complexes* amplitude = (answered ? modes_[h].answered : modes_[h].contact).data() + c;
+    const double weight = harmonics_[h].weight();
+    u += weight * Vec3(real_product(wave, amplitude[0]), real_product(wave, amplitude[1]),
+                       real_product(wave, amplitude[2]));
+  });
+  return u;
+}
+
+SolidWheelReport SolidWheel::step(const SolidMotion& m) {
+  SolidWheelReport report;
+  use_spin(m);
+  move_modes(m);
+  find_near(m);
+  solve(m, report);
+  take_forces(m, report);
+  account(m, report);
+  remember(m);
+  return report;
+}
+
+}  // namespace rondo::rom

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  A rolling wheel in three dimensions in a few modes whose contact is exact
+/// (docs/reduced.md): what wheel/ring_wheel.hpp does for a disk. Vectors of a contact node are
+/// radial, tangential and axial in the frame of its sector, its own axes, unless they are said to
+/// be of the fixed axes (t1, n, t2).
+#pragma once
+#include <Eigen/LU>
+#include <array>
+#include <complex>
+#include <span>
+#include <vector>
+
+#include "rondo/contact/space/space_ground.hpp"
+#include "rondo/model/model.hpp"
+#include "rondo/rom/solid/cone_law.hpp"
+#include "rondo/rom/solid/solid_ring.hpp"
+#include "rondo/rom/solid/wheel_attitude.hpp"
+#include "rondo/rom/wheel/ring_wheel.hpp"
+
+namespace rondo::rom {
+
+struct SolidWheelSettings {
+  double dt = 0.0;                 ///< [s]
+  double mass_damping = 0.0;       ///< α                                        [1/s]
+  double stiffness_damping = 0.0;  ///< β                                          [s]
+  double theta = 0.6;              ///< share of the new force in that on the modes
+  double law_residual = 1e-6;      ///< of the law of contact, over the largest force
+};
+
+/// The rim over a step.
+struct SolidMotion {
+  WheelMotion plane;                         ///< its center and pull along t1 and n
+  double lateral = 0.0, lateral_next = 0.0;  ///< of the center, along t2                 [m]
+  double lateral_pull = 0.0;                 ///< mean of c̈ - g along t2               [m/s²]
+  WheelAttitude attitude, attitude_next;
+  /// Mean angular velocity of the attitude and its mean rate, along x and y of the wheel
+  /// [rad/s], [rad/s²]
+  Vec2 turning, turning_rate;
+
+  [[nodiscard]] Vec3 center() const noexcept { return {plane.center, lateral}; }
+  [[nodiscard]] Vec3 center_next() const noexcept { return {plane.center_next, lateral_next}; }
+};
+
+/// A node that the ground presses; fixed axes.
+struct SolidWheelContact {
+  int node = 0;  ///< sector · C + place among the contact nodes of a sector
+  contact::SpaceFrame frame;
+  Vec3 force;             ///< on the node                                             [N]
+  Vec3 moved;             ///< gap and distances slid, in the frame                    [m]
+  double friction = 0.0;  ///< μ
+  contact::Status status = contact::Status::open;
+};
+
+/// Forces of the ground on the wheel, and their moments about the center; fixed axes.
+struct GroundForces {
+  Vec3 force;   ///< [N]
+  Vec3 moment;  ///< [N m]
+};
+
+struct SolidWheelReport {
+  GroundForces end;   ///< at the end of the step
+  GroundForces mean;  ///< θ of it and 1 - θ of that at its start: what moves modes and rim
+  double torque = 0.0, mean_torque = 0.0;  ///< of these about the axle               [N m]
+  WheelEnergy energy;                      ///< [J]
+  int candidates = 0;                      ///< nodes whose contact was solved
+  int iterations = 0;
+  bool by_newton = false;
+  double law_residual = 0.0;  ///< over the largest force
+  double free = 0.0;          ///< largest distance that a contact would move without forces [m]
+  std::span<const SolidWheelContact> contacts;  ///< valid until the next step
+};
+
+class SolidWheel {
+ public:
+  /// All but the settings must outlive it.
+  SolidWheel(const SolidRing& ring, const WheelModel& model, const dynamics::ContactModel& ground,
+             const SolidWheelSettings& settings);
+
+  /// Starts from the stationary spin, at the end of a motion.
+  void start(const SolidMotion& motion);
+  /// Starts from fields of all nodes in the co-rotating frame, (n) each: of these their modes, and
+  /// the forces that hold contact nodes which touch the ground.
+  void start(const SolidMotion& motion, std::span<const Vec3> u, std::span<const Vec3> v);
+  /// Allocates nothing but room for more contacts than ever before, and in Newton's method.
+  [[nodiscard]] SolidWheelReport step(const SolidMotion& motion);
+
+  [[nodiscard]] WheelEnergy energy_at_start(bool softened) const;
+  /// Displacement of the free nodes after the last step, in the co-rotating frame; (n).
+  /// @param angle θ at its end
+  void displacement(double angle, std::span<Vec3> u) const;
+  /// Writes that of the contact nodes alone, and allocates nothing.
+  void contact_displacement(double angle, std::span<Vec3> u) const;
+  /// And the mean velocity in it. @param angle θ in its middle
+  void velocity(double angle, std::span<Vec3> v) const;
+
+  /// The numbers from which another wheel of this ring, and these settings, resumes bit for bit.
+  [[nodiscard]] static std::size_t n_numbers(const SolidRing& ring,
+                                             const WheelModel& model) noexcept;
+  [[nodiscard]] std::vector<double> save() const;
+  /// @pre is_saved()
+  void restore(std::span<const double> numbers);
+  /// Whether numbers may come from save() of a wheel of this model.
+  [[nodiscard]] static bool is_saved(const SolidRing& ring, const WheelModel& model,
+                                     std::span<const double> numbers) noexcept;
+
+ private:
+  using Complexes = std::complex<double>;
+  using Vector = Eigen::VectorXcd;
+  using Matrix = Eigen::MatrixXcd;
+
+  /// The modes of a harmonic; their coefficients y and velocities p are one after the other.
+  struct Modes {
+    explicit Modes(const RingHarmonic& of);
+
+    Vector state, before;   ///< (2r) at the end of the last step, and of the one before
+    Vector force, outside;  ///< (r) of the contact, φ_cᴴ λ; of the frame
+    Vector held;            ///< (r) of the contact at the start of the step, its share in it
+    Vector ground;          ///< (3C) sum of e^{-ikψ} λ over the sectors, over their number
+    Vector contact;         ///< (3C) φ_c y without new forces
+    Vector answered;        ///< (3C) and what these do to it
+    Vector pushed, work;    ///< (r), (2r)
+    // fill_step() sets these for a step.
+    Complexes turn, lever;  ///< c = 1 + ½Δt iks; ½Δt/c                                         [s]
+    Matrix stiff;    ///< (r, r) ω² - s² P + ṡ J                                       [1/s²]
+    Matrix inverse;  ///< (r, r) of c + ½Δt (α + βω² + 2sJ) + ½Δt lever stiff
+    Matrix step, one;                    ///< (r, r) what is inverted; the identity
+    Eigen::PartialPivLU<Matrix> factor;  ///< of it
+    Matrix reply, answer;  ///< (r, 3C) inverse φ_cᴴ; (3C, 3C) share of the modes in W
+  };
+  /// A contact node near the ground.
+  struct Near {
+    int node = 0;
+    Complex turn;  ///< e^{iψ} at the end of the step
+    Vec3 free;     ///< place from the center at the end of the step without new forces   [m]
+    Vec3 place;    ///< and with them                                                     [m]
+    Vec3 force;    ///< at the end of the step                                            [N]
+    bool candidate = false;
+  };
+  /// What is remembered of a contact node.
+  struct Memory {
+    Vec3 force;                      ///< [N]
+    Vec3 filtered, filtered_before;  ///< forces that the residual answers to              [N]
+    Vec3 residual, residual_before;  ///< G of these                                       [m]
+    std::array<Vec3, 3> place{};     ///< from the center, newest first, fixed axes        [m]
+    std::array<double, 2> gap{};     ///< newest first                                     [m]
+    double slip = 0.0;               ///< distance slid in the last step                   [m]
+    int known = 0;                   ///< number of places that are known
+  };
+  static constexpr std::size_t numbers_of_node = 22;
+
+  void use_spin(const SolidMotion& motion);
+  void set_residual(double spin);
+  void fill_step(const RingHarmonic& of, double spin, double rate, Modes& modes);
+  void push_by(const Modes& modes, const Vector& force, Vector& out) const;
+  void move_modes(const SolidMotion& motion);
+  void move_contact();
+  void make_window();
+  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> beyond(int lag) const;
+  [[nodiscard]] Vec3 product(int to, int from, Vec3 force) const noexcept;
+  void renew_residuals();
+  [[nodiscard]] Vec3 modal(int node, Complex wave, bool answered) const noexcept;
+  [[nodiscard]] bool is_low(int sector, const SolidMotion& motion) const noexcept;
+  void find_window(const SolidMotion& motion);
+  void find_near(const SolidMotion& motion);
+  void guess_forces(const SolidMotion& motion);
+  [[nodiscard]] Vec3 fixed(const Near& near, Vec3 own, const SolidMotion& m) const noexcept {
+    return m.attitude_next.to_fixed(near.turn * own);
+  }
+  [[nodiscard]] contact::SpaceTouch touch_of(const Near& near, const SolidMotion& m) const noexcept;
+  [[nodiscard]] Vec3 distance(const Near& near, const SolidMotion& motion) const noexcept;
+  [[nodiscard]] double friction_of(const Near& near, const contact::SpaceTouch& touch,
+                                   const SolidMotion& m, Vec3 free) const;
+  void add_candidates(const SolidMotion& motion);
+  void fill_law(const SolidMotion& motion);
+  void place_all();
+  [[nodiscard]] bool join(const SolidMotion& motion);
+  [[nodiscard]] bool turn_normals(const SolidMotion& motion) const;
+  void solve(const SolidMotion& motion, SolidWheelReport& report);
+  void take_forces(const SolidMotion& motion, SolidWheelReport& report);
+  void push_modes(const Near& near);
+  void filter_forces();
+  void account_modes(const SolidMotion& motion, WheelEnergy& energy) const;
+  void account(const SolidMotion& motion, SolidWheelReport& report);
+  [[nodiscard]] double work_on_modes() const;
+  void remember(const SolidMotion& motion);
+  void begin(const SolidMotion& motion);
+  void press_at_start(const SolidMotion& motion, std::span<const Vec3> u);
+  void project(double angle, std::span<const Vec3> field, bool velocity);
+  template <class Coefficients, class Filtered>
+  void write_field(double angle, const Eigen::VectorXd& constant, Coefficients&& coefficients,
+                   Filtered&& filtered, std::span<Vec3> field) const;
+
+  [[nodiscard]] double filter() const noexcept {
+    const double lag = settings_.stiffness_damping / settings_.dt;
+    return lag / (1.0 + lag);
+  }
+  [[nodiscard]] int sector(int node) const noexcept { return node / n_contact_; }
+  /// Place among the contact nodes of a sector.
+  [[nodiscard]] int local(int node) const noexcept { return node % n_contact_; }
+  [[nodiscard]] int wrapped(int sector) const noexcept {
+    const int n = ring_.n_sectors();
+    return (sector % n + n) % n;
+  }
+  [[nodiscard]] Memory& memory_of(int node) noexcept {
+    return memory_[static_cast<std::size_t>(node)];
+  }
+  [[nodiscard]] const Memory& memory_of(int node) const noexcept {
+    return memory_[static_cast<std::size_t>(node)];
+  }
+  [[nodiscard]] Vec3 arm(int node) const noexcept {
+    return ring_
+        .place[static_cast<std::size_t>(ring_.contact[static_cast<std::size_t>(local(node))])];
+  }
+  [[nodiscard]] double residual_stored() const noexcept;
+
+  const SolidRing& ring_;
+  const std::vector<RingHarmonic>& harmonics_;
+  const WheelModel& model_;
+  const dynamics::ContactModel& ground_;
+  const SolidWheelSettings settings_;
+  const int n_contact_;  ///< C
+  const bool flat_;
+  std::vector<double> area_;  ///< (C) of the ground that a contact node presses          [m²]
+  // Of the spin:
+  double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
+  bool has_matrices_ = false, new_table_ = false;
+  std::vector<double> tables_;    ///< (N, 3C, 3C) G at a spin between those of the model [m/N]
+  Eigen::VectorXd centrifugal_;   ///< (rows) of the spin at its end                       [m]
+  double residual_before_ = 0.0;  ///< energy at its start by the spin of the step before  [J]
+  std::vector<Modes> modes_;
+  std::vector<Memory> memory_;  ///< (N C)
+  GroundForces last_;           ///< at the end of the last step
+  // Of the window: whole sectors, of which some node is near the ground or remembers a force.
+  int first_ = 0, n_window_ = 0;  ///< first sector, number of sectors
+  int n_made_ = 0;                ///< sectors for which the compliance is made
+  WindowCompliance window_;
+  std::vector<Near> near_;           ///< (n_window, C)
+  std::vector<int> seen_;            ///< nodes of the last step's near_
+  std::vector<double> moved_;        ///< (3 near) by the forces of the law, own axes            [m]
+  std::vector<std::size_t> solved_;  ///< places of the candidates in near_
+  std::vector<contact::SpaceTouch> touch_;  ///< of these, at `place`
+  std::vector<ConeContact> cones_;
+  std::vector<SolidWheelContact> contacts_;
+  ConeLaw law_;
+};
+
+}  // namespace rondo::rom

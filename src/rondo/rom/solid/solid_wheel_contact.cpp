@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// Contact of a step: nodes near the ground, the law, what its forces do.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "rondo/core/index.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
+#include "rondo/rom/solid/solid_wheel.hpp"
+#include "rondo/rom/wheel/ring_waves.hpp"
+
+namespace rondo::rom {
+namespace {
+
+using contact::SpaceTouch;
+using Eigen::Index;
+
+constexpr double near_share = 0.03;        ///< of the radius, above the ground: looked at
+constexpr double candidate_share = 0.004;  ///< contact is solved
+constexpr double nothing = 1e-9;           ///< filtered forces below it are 0              [N]
+constexpr int most_turns = 3;              ///< of the normals, on ground that is not flat
+
+/// Smallest root in [0, 1] of g + b τ + a τ² = 0 with g > 0, a >= 0; 1: there is none.
+double landing_in(double g, double b, double a) noexcept {
+  if (b >= 0.0) return 1.0;
+  const double inside = b * b - 4.0 * a * g;
+  if (inside < 0.0) return 1.0;
+  return std::min(1.0, 2.0 * g / (-b + std::sqrt(inside)));
+}
+
+}  // namespace
+
+SpaceTouch SolidWheel::touch_of(const Near& near, const SolidMotion& m) const noexcept {
+  return dynamics::nearest_in_space(ground_, m.center_next() + fixed(near, near.place, m));
+}
+
+/// Whether the undeformed nodes of a sector are near the ground.
+bool SolidWheel::is_low(int j, const SolidMotion& m) const noexcept {
+  const Complex turn = rotation(m.plane.angle_next) * ring_.stiffness.turn[at(j)];
+  const double reach = model_.radius, ahead = m.plane.center_next.x;
+  const double limit = dynamics::top_between(ground_, ahead - reach, ahead + reach) +
+                       near_share * model_.radius - m.plane.center_next.y;
+  for (const int row : ring_.contact)
+    if (m.attitude_next.to_fixed(turn * ring_.place[at(row)]).y < limit) return true;
+  return false;
+}
+
+/// The sectors that are near the ground, or whose nodes remember forces, and those between them.
+void SolidWheel::find_window(const SolidMotion& m) {
+  const int n = ring_.n_sectors();
+  const double pitch = 2.0 * std::numbers::pi / n;
+  const int below = wrapped(
+      static_cast<int>(std::fmod(std::round(-m.plane.angle_next / pitch), static_cast<double>(n))));
+  int low = 0, high = -1;
+  for (int d = -n / 2; d < n - n / 2; ++d) {
+    const int j = wrapped(below + d);
+    bool taken = is_low(j, m);
+    for (int c = 0; c < n_contact_ && !taken; ++c)
+      taken = memory_of(j * n_contact_ + c).filtered != Vec3{};
+    if (!taken) continue;
+    if (high < low) low = d;
+    high = d;
+  }
+  first_ = wrapped(below + low);
+  n_window_ = high - low + 1;
+}
+
+/// Places of the nodes of the window without new forces.
+void SolidWheel::find_near(const SolidMotion& m) {
+  find_window(m);
+  make_window();
+  near_.clear();
+  const Complex frame = rotation(m.plane.angle_next);
+  const double left = filter();
+  for (int d = 0; d < n_window_; ++d) {
+    const int j = wrapped(first_ + d);
+    const Complex turn = frame * ring_.stiffness.turn[at(j)];
+    for (int c = 0; c < n_contact_; ++c) {
+      Near& near = near_.emplace_back();
+      near.node = j * n_contact_ + c;
+      near.turn = turn;
+      Memory& memory = memory_of(near.node);
+      if (memory.known == 0) {
+        memory.residual = {};
+        for (const int from : seen_)
+          if (const Vec3 force = memory_of(from).filtered; force != Vec3{})
+            memory.residual += product(near.node, from, force);
+      }
+      const Index row = Index{3} * ring_.contact[at(c)];
+      const Vec3 spun{centrifugal_[row], centrifugal_[row + 1], centrifugal_[row + 2]};
+      near.free = near.place =
+          arm(near.node) + spun + modal(near.node, turn, false) + left * memory.residual;
+    }
+  }
+  guess_forces(m);
+}
+
+/// Forces of the step before, which nearly stand still in space.
+void SolidWheel::guess_forces(const SolidMotion& m) {
+  const double pitch = 2.0 * std::numbers::pi / ring_.n_sectors();
+  const double passed = (m.plane.angle_next - m.plane.angle) / pitch, whole = std::floor(passed);
+  const double share = passed - whole;
+  const int shift = static_cast<int>(whole) * n_contact_, n = static_cast<int>(memory_.size());
+  const auto old = [&](int node) { return memory_of((node % n + n) % n).force; };
+  for (Near& near : near_)
+    near.force =
+        (1.0 - share) * old(near.node + shift) + share * old(near.node + shift + n_contact_);
+}
+
+/// The distance that a node slides, fixed axes, were it at its place without new forces.
+Vec3 SolidWheel::distance(const Near& near, const SolidMotion& m) const noexcept {
+  const Memory& was = memory_of(near.node);
+  const Vec3 way = m.center_next() - m.center(), free = fixed(near, near.free, m);
+  if (was.known == 0) {  // it comes into sight: as if it only turned
+    const Complex back = conj(rotation(m.plane.angle_next - m.plane.angle)) * near.turn;
+    return way + free - m.attitude.to_fixed(back * near.free);
+  }
+  const Vec3 x = was.place[0];
+  if (was.known < 2 || was.force != Vec3{} || was.gap[0] <= 0.0) return way + free - x;
+  const double dt = settings_.dt, spin = m.plane.spin_next;
+  const double bend = 0.5 * spin * spin * model_.radius * dt * dt;
+  const double tau = landing_in(was.gap[0], was.gap[0] - was.gap[1] + bend, bend);
+  const Vec3 change = x - was.place[1];
+  const Vec3 second = was.known < 3 ? Vec3{} : x - 2.0 * was.place[1] + was.place[2];
+  const Vec3 before = tau * (change + 0.5 * second) + 0.5 * tau * tau * second;
+  return (1.0 - tau) * way + free - x - before;
+}
+
+/// μ by the slip and the pressure of the step before; a node that was open slides as it would
+/// without a force.
+double SolidWheel::friction_of(const Near& near, const SpaceTouch& touch, const SolidMotion& m,
+                               Vec3 free) const {
+  const contact::Friction& friction = ground_.law.friction;
+  if (friction.is_constant()) return friction.constant();
+  const Memory& was = memory_of(near.node);
+  contact::SlidingState state;
+  state.place = m.center_next() + fixed(near, near.place, m);
+  const bool pressed = was.force != Vec3{};
+  state.slip = (pressed ? was.slip : std::hypot(free.y, free.z)) / settings_.dt;
+  const double area = area_[at(local(near.node))];
+  if (pressed && area > 0.0)
+    state.pressure = std::max(0.0, dot(touch.frame.normal, fixed(near, was.force, m))) / area;
+  return friction.coefficient(state);
+}
+
+/// Nodes that are low enough, or were pressed.
+void SolidWheel::add_candidates(const SolidMotion& m) {
+  solved_.clear();
+  touch_.clear();
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    Near& near = near_[i];
+    const SpaceTouch touch = touch_of(near, m);
+    near.candidate |= touch.gap < candidate_share * model_.radius || near.force != Vec3{};
+    if (!near.candidate) continue;
+    solved_.push_back(i);
+    touch_.push_back(touch);
+  }
+}
+
+/// The law of the candidates, with the facets that are nearest to their places.
+void SolidWheel::fill_law(const SolidMotion& m) {
+  cones_.resize(solved_.size());
+  const auto first = static_cast<int>(solved_.front()) / n_contact_ * n_contact_;
+  for (std::size_t i = 0; i < solved_.size(); ++i) {
+    const Near& near = near_[solved_[i]];
+    const contact::SpaceFrame& frame = touch_[i].frame;
+    const Vec3 axes[] = {frame.normal, frame.tangent(), frame.line};
+    ConeContact& c = cones_[i];
+    c = {};
+    c.place = static_cast<int>(solved_[i]) - first;
+    const Vec3 slides = distance(near, m);
+    c.free = {touch_[i].gap + dot(axes[0], fixed(near, near.free - near.place, m)),
+              dot(axes[1], slides), dot(axes[2], slides)};
+    for (std::size_t k = 0; k < 3; ++k)
+      c.axes[k] = conj(near.turn) * m.attitude_next.from_fixed(axes[k]);
+    c.friction = friction_of(near, touch_[i], m, c.free);
+    c.force = {dot(c.axes[0], near.force), dot(c.axes[1], near.force), dot(c.axes[2], near.force)};
+  }
+}
+
+/// Places of all nodes of the window under the forces of the candidates.
+void SolidWheel::place_all() {
+  const Index rows = Index{3} * static_cast<Index>(near_.size());
+  moved_.assign(at(rows), 0.0);
+  if (solved_.empty()) return;
+  const Index begin = Index{3} * (static_cast<Index>(solved_.front()) / n_contact_ * n_contact_);
+  const std::span<const double> known = law_.moved();
+  const Index end = begin + static_cast<Index>(known.size());
+  std::ranges::copy(known, moved_.begin() + begin);
+  for (std::size_t i = 0; i < solved_.size(); ++i) {
+    const Vec3 r = near_[solved_[i]].force;
+    if (r == Vec3{}) continue;
+    const Index j = Index{3} * static_cast<Index>(solved_[i]);
+    const double *a = window_.column(j), *b = window_.column(j + 1), *c = window_.column(j + 2);
+    const auto add = [&](Index from, Index to) {
+      double* __restrict out = moved_.data();
+      for (Index k = from; k < to; ++k) out[k] += r.x * a[k] + r.y * b[k] + r.z * c[k];
+    };
+    add(0, begin);
+    add(end, rows);
+  }
+  for (std::size_t i = 0; i < near_.size(); ++i)
+    near_[i].place = near_[i].free + Vec3{moved_[3 * i], moved_[3 * i + 1], moved_[3 * i + 2]};
+}
+
+/// Nodes that were left out and are now in the ground become candidates. False: there are none.
+bool SolidWheel::join(const SolidMotion& m) {
+  const double closed = -1e-6 * settings_.law_residual * model_.radius;
+  bool joined = false;
+  for (Near& near : near_)
+    if (!near.candidate && touch_of(near, m).gap < closed) joined = near.candidate = true;
+  return joined;
+}
+
+/// Whether a candidate is now at another facet, or elsewhere on an arc.
+bool SolidWheel::turn_normals(const SolidMotion& m) const {
+  for (std::size_t i = 0; i < solved_.size(); ++i) {
+    const Vec3 change = touch_of(near_[solved_[i]], m).frame.normal - touch_[i].frame.normal;
+    if (dot(change, change) > 1e-20) return true;
+  }
+  return false;
+}
+
+void SolidWheel::solve(const SolidMotion& m, SolidWheelReport& report) {
+  solved_.clear();
+  cones_.clear();
+  if (!flat_) {  // the forces of before tell where nodes about are
+    for (std::size_t i = 0; i < near_.size(); ++i)
+      if (near_[i].force != Vec3{}) solved_.push_back(i);
+    law_.clear();
+    place_all();
+  }
+  for (int turn = 0; turn < most_turns; ++turn) {
+    add_candidates(m);
+    report.candidates = static_cast<int>(solved_.size());
+    if (solved_.empty()) {
+      law_.clear();
+      place_all();
+      return;
+    }
+    fill_law(m);
+    const Index sectors = static_cast<Index>(solved_.back()) / n_contact_ -
+                          static_cast<Index>(solved_.front()) / n_contact_ + 1;
+    const ConeLaw::Report solved = law_.solve(cones_, window_, sectors * ring_.n_contact());
+    report.iterations += solved.sweeps;
+    report.by_newton |= solved.by_newton;
+    report.law_residual = solved.residual;
+    double free = 0.0;
+    for (std::size_t i = 0; i < solved_.size(); ++i) {
+      const ConeContact& c = cones_[i];
+      const Vec3 moved{std::min(0.0, c.free.x), c.free.y, c.free.z};
+      free = std::max(free, dot(moved, moved));
+      near_[solved_[i]].force =
+          c.force.x * c.axes[0] + c.force.y * c.axes[1] + c.force.z * c.axes[2];
+    }
+    report.free = std::sqrt(free);
+    place_all();
+    if (join(m)) {
+      turn = -1;  // as many nodes can join as there are
+      continue;
+    }
+    if (flat_ || !turn_normals(m)) return;
+  }
+}
+
+/// Adds a force to those on the modes.
+void SolidWheel::push_modes(const Near& near) {
+  const Index row = Index{3} * local(near.node);
+  const Vec3 part = near.force / static_cast<double>(ring_.n_sectors());
+  for_waves(harmonics_, near.turn, [&](std::size_t h, Complex wave) {
+    const Complexes back(wave.re, -wave.im);
+    modes_[h].ground[row] += part.x * back;
+    modes_[h].ground[row + 1] += part.y * back;
+    modes_[h].ground[row + 2] += part.z * back;
+  });
+}
+
+/// Forces of the ground, and what they do to the modes.
+void SolidWheel::take_forces(const SolidMotion& m, SolidWheelReport& report) {
+  contacts_.clear();
+  for (Modes& s : modes_) s.ground.setZero();
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    Near& near = near_[i];
+    const bool solved = next < solved_.size() && solved_[next] == i;
+    const std::size_t l = next;
+    next += solved ? 1 : 0;
+    if (!solved || near.force == Vec3{}) {
+      near.force = {};
+      continue;
+    }
+    const Vec3 force = fixed(near, near.force, m);
+    const ConeContact& c = cones_[l];
+    contacts_.push_back({near.node, touch_[l].frame, force, c.moved, c.friction, c.status});
+    report.end.force += force;
+    report.end.moment += cross(fixed(near, near.place, m), force);
+    report.torque += cross(near.place, near.force).z;
+    push_modes(near);
+  }
+  for (std::size_t h = 0; h < modes_.size(); ++h) {
+    Modes& s = modes_[h];
+    const Index r = s.force.size();
+    s.force.noalias() = harmonics_[h].contact.adjoint() * s.ground;
+    push_by(s, s.force, s.work);
+    s.work *= settings_.theta;
+    s.state += s.work;
+    s.answered.noalias() = harmonics_[h].contact * s.work.head(r);
+  }
+  filter_forces();
+  report.mean.force = settings_.theta * report.end.force + (1.0 - settings_.theta) * last_.force;
+  report.mean.moment = settings_.theta * report.end.moment + (1.0 - settings_.theta) * last_.moment;
+  report.mean_torque = m.attitude_next.from_fixed(report.mean.moment).z;
+  last_ = report.end;
+  report.contacts = contacts_;
+}
+
+/// The forces that the residual answers to, and its answer: implicit Euler.
+void SolidWheel::filter_forces() {
+  const double left = filter();
+  for (std::size_t i = 0; i < near_.size(); ++i) {
+    const Near& near = near_[i];
+    Memory& memory = memory_of(near.node);
+    memory.filtered_before = memory.filtered;
+    memory.residual_before = memory.residual;
+    memory.filtered = left * memory.filtered + (1.0 - left) * near.force;
+    const Vec3 moved{moved_[3 * i], moved_[3 * i + 1], moved_[3 * i + 2]};
+    memory.residual = left * memory.residual + moved - modal(near.node, near.turn, true);
+  }
+}
+
+/// Places, gaps and forces at the end of the step, and what the modes do to contact nodes.
+void SolidWheel::remember(const SolidMotion& m) {
+  move_contact();
+  for (const int node : seen_) {
+    const int d = wrapped(sector(node) - first_);
+    if (d >= n_window_) memory_of(node) = {};
+  }
+  seen_.clear();
+  for (const Near& near : near_) {
+    Memory& memory = memory_of(near.node);
+    memory.place = {fixed(near, near.place, m), memory.place[0], memory.place[1]};
+    memory.gap = {touch_of(near, m).gap, memory.gap[0]};
+    memory.known = std::min(3, memory.known + 1);
+    memory.force = near.force;
+    memory.slip = 0.0;
+    if (dot(memory.filtered, memory.filtered) < nothing * nothing) memory.filtered = {};
+    seen_.push_back(near.node);
+  }
+  for (std::size_t l = 0; l < solved_.size(); ++l)
+    memory_of(near_[solved_[l]].node).slip = std::hypot(cones_[l].moved.y, cones_[l].moved.z);
+}
+
+}  // namespace rondo::rom

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "rondo/rom/solid_wheel_run.hpp"
+
+#include <algorithm>
+#include <chrono>
+
+#include "rondo/core/contract.hpp"
+#include "rondo/core/index.hpp"
+
+namespace rondo::rom {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+SolidWheelSettings settings_of(const dynamics::Model& model, double law_residual) {
+  return {.dt = model.dt,
+          .mass_damping = model.mass_damping,
+          .stiffness_damping = model.stiffness_damping,
+          .law_residual = law_residual};
+}
+
+}  // namespace
+
+WheelModel make_solid_model(const SolidRing& ring, std::vector<RingHarmonic> harmonics,
+                            const KnownSpins& spins) {
+  const OneBlasThread one;
+  WheelModel wheel;
+  wheel.harmonics = std::move(harmonics);
+  for (const Vec3 x : ring.place) wheel.radius = std::max(wheel.radius, norm(x.plane()));
+  spread_residuals(spins, wheel, [&](double square) -> CreepResidual {
+    return {solid_residual(ring, wheel.harmonics, square), {}, {}};
+  });
+  return wheel;
+}
+
+SolidWheelRun::SolidWheelRun(const dynamics::Model& model, const SolidRing& ring,
+                             const WheelModel& wheel, double law_residual, WheelFigures& figures,
+                             const dynamics::State& at_start)
+    : model_(model),
+      ring_(ring),
+      law_residual_(law_residual),
+      figures_(figures),
+      candidate_(dynamics::places_among(model.contact->nodes, model.n_nodes())),
+      attitude_(model.motion.camber),
+      wheel_(ring, wheel, *model.contact, settings_of(model, law_residual)) {
+  RONDO_DEMAND(model.dt > 0.0 && model.solid, model.dt);
+  active_.reserve(model.contact->nodes.size());
+  SolidMotion start = motion_of(0);
+  start.plane.angle_next = start.plane.angle;
+  start.plane.center_next = start.plane.center;
+  start.lateral_next = start.lateral;
+  start.plane.spin_next = -model_.motion.angular_velocity.at(0.0);
+  start.plane.spin_rate = 0.0;
+  wheel_.start(start, at_start.u.space(), at_start.v.space());
+  frame_ = dynamics::frame_step(model_.motion, 0, model_.dt);
+  ledger_.compare(energy_of(wheel_.energy_at_start(true)));
+}
+
+dynamics::StepEnergy SolidWheelRun::energy_of(const WheelEnergy& wheel) {
+  dynamics::StepEnergy energy;
+  energy.kinetic = wheel.kinetic;
+  energy.strain = wheel.elastic + wheel.residual;
+  return energy;
+}
+
+/// Kinks of the motion are spread over the step that ends there.
+SolidMotion SolidWheelRun::motion_of(long long step) const {
+  const dynamics::Motion& of = model_.motion;
+  const double dt = model_.dt, t = static_cast<double>(step) * dt,
+               end = static_cast<double>(step + 1) * dt;
+  SolidMotion motion;
+  WheelMotion& m = motion.plane;
+  m.angle = of.angle(t);
+  m.angle_next = of.angle(end);
+  m.spin_next = -of.angular_velocity.at(end);
+  m.spin_rate = -of.angular_velocity.change(t, dt) / dt;
+  const Vec3 way = of.advance(t, dt), center = of.center(end);
+  m.center_next = center.plane();
+  m.center = m.center_next - way.plane();
+  motion.lateral_next = center.z;
+  motion.lateral = center.z - way.z;
+  const Vec3 pull = (way - of.advance(t - dt, dt)) / (dt * dt);
+  m.pull = pull.plane() - of.gravity_at(t + 0.5 * dt);
+  motion.lateral_pull = pull.z;
+  motion.attitude = motion.attitude_next = attitude_;
+  return motion;
+}
+
+std::size_t SolidWheelRun::candidate_of(int contact_node) const noexcept {
+  const auto n = static_cast<int>(ring_.contact.size());
+  const std::size_t node =
+      ring_.stiffness.node(at(ring_.contact[at(contact_node % n)]), at(contact_node / n));
+  return at(candidate_[node]);
+}
+
+void SolidWheelRun::report_contact(const SolidWheelReport& wheel,
+                                   dynamics::ContactReport& report) const {
+  const double dt = model_.dt, height = frame_.center.y;
+  report.impulse = dt * wheel.mean.force;
+  report.angular_impulse = dt * wheel.mean_torque;
+  report.moment_aligning = dt * wheel.mean.moment.y;
+  report.moment_overturning = dt * (wheel.mean.moment.x + height * wheel.mean.force.z);
+  report.free_velocity = wheel.free / dt;
+  report.residual = wheel.law_residual * report.free_velocity;
+  report.clusters = wheel.candidates > 0 ? 1 : 0;
+  report.clusters_not_converged = wheel.law_residual <= law_residual_ ? 0 : 1;
+  report.cluster_largest = wheel.candidates;
+  report.cluster_iterations = wheel.iterations;
+  for (const SolidWheelContact& c : wheel.contacts) {
+    ++report.nodes;
+    report.sticking += c.status == contact::Status::stick ? 1 : 0;
+    report.length += model_.contact->tributary[candidate_of(c.node)];
+    report.penetration = std::max(report.penetration, -c.moved.x);
+  }
+  report.dissipation_friction = wheel.energy.friction;
+  report.loss_impact = wheel.energy.arrival;
+  report.work_rim = -wheel.energy.rim;
+  report.work = report.work_rim - report.dissipation_friction - report.loss_impact;
+}
+
+void SolidWheelRun::count(const SolidWheelReport& wheel, double seconds) {
+  if (wheel.candidates > 0) ++figures_.contact_steps;
+  figures_.iterations += wheel.iterations;
+  figures_.iterations_max = std::max(figures_.iterations_max, wheel.iterations);
+  figures_.contacts_max = std::max(figures_.contacts_max, static_cast<int>(wheel.contacts.size()));
+  figures_.pivoted += wheel.by_newton ? 1 : 0;
+  figures_.not_converged += wheel.law_residual <= law_residual_ ? 0 : 1;
+  figures_.wall_s += seconds;
+  figures_.slowest_step_s = std::max(figures_.slowest_step_s, seconds);
+}
+
+void SolidWheelRun::list_contacts(const SolidWheelReport& wheel) {
+  active_.clear();
+  for (const SolidWheelContact& c : wheel.contacts) {
+    dynamics::ActiveContact a;
+    a.candidate = candidate_of(c.node);
+    a.space = c.frame;
+    a.gap = c.moved.x;
+    a.impulse = model_.dt * c.frame.to(c.force);
+    a.friction = c.friction;
+    a.status = c.status;
+    active_.push_back(a);
+  }
+  std::ranges::sort(active_, {}, &dynamics::ActiveContact::candidate);
+}
+
+void SolidWheelRun::step(dynamics::StepReport& report) {
+  const auto begin = Clock::now();
+  dynamics::Works works;
+  const SolidWheelReport wheel = wheel_.step(motion_of(n_));
+  ++n_;
+  frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);
+  report = {};
+  report.step = n_;
+  report.frame = frame_;
+  report_contact(wheel, report.contact);
+  dynamics::set_contact_works(report.contact, works);
+  works.frame = wheel.energy.frame;
+  works.dissipation_mass = wheel.energy.by_mass;
+  works.dissipation_stiffness = wheel.energy.by_stiffness + wheel.energy.by_residual;
+  works.scheme += wheel.energy.scheme;
+  ledger_.add_works(works);
+  ledger_.compare(energy_of(wheel.energy));
+  report.balance = ledger_.last();
+  list_contacts(wheel);
+  count(wheel, std::chrono::duration<double>(Clock::now() - begin).count());
+}
+
+void SolidWheelRun::fill(dynamics::State& state) const {
+  state.step = n_;
+  state.frame = frame_;
+  state.active = active_;
+  if (state.v.empty()) {
+    wheel_.contact_displacement(frame_.angle, state.u.space());
+    return;
+  }
+  wheel_.displacement(frame_.angle, state.u.space());
+  wheel_.velocity(frame_.angle - 0.5 * frame_.turn_before, state.v.space());
+  if (!state.v_next.empty()) state.v_next = state.v;
+}
+
+void SolidWheelRun::advance(std::span<dynamics::StepReport> reports,
+                            dynamics::State* last) noexcept {
+  RONDO_DEMAND(!reports.empty());
+  for (dynamics::StepReport& report : reports) step(report);
+  if (last) fill(*last);
+}
+
+void SolidWheelRun::fields(dynamics::State& state) const noexcept {
+  wheel_.displacement(frame_.angle, state.u.space());
+  wheel_.velocity(frame_.angle - 0.5 * frame_.turn_before, state.v_next.space());
+}
+
+dynamics::SavedState SolidWheelRun::save() const {
+  dynamics::SavedState saved;
+  saved.step = n_;
+  saved.ring = wheel_.save();
+  saved.ledger = ledger_.save();
+  return saved;
+}
+
+void SolidWheelRun::restore(const dynamics::SavedState& saved) {
+  n_ = saved.step;
+  wheel_.restore(saved.ring);
+  ledger_.restore(saved.ledger);
+  frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);
+}
+
+}  // namespace rondo::rom

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+/// @file  The steps of a reduced wheel in three dimensions (solid/solid_wheel.hpp) with the
+/// interface of a full run; what wheel_run.hpp does for a disk.
+#pragma once
+#include <vector>
+
+#include "rondo/core/process_wide.hpp"
+#include "rondo/model/integrator.hpp"
+#include "rondo/rom/solid/solid_wheel.hpp"
+#include "rondo/rom/wheel_run.hpp"
+
+namespace rondo::rom {
+
+/// @param known spins of the run; as make_wheel_model()
+[[nodiscard]] WheelModel make_solid_model(const SolidRing& ring,
+                                          std::vector<RingHarmonic> harmonics,
+                                          const KnownSpins& spins);
+
+class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resumable {
+ public:
+  /// All but the state must outlive it. @param model dt: that of the reduced step
+  /// @param at_start u and v at t = 0, co-rotating frame; what is outside of the modes is lost
+  SolidWheelRun(const dynamics::Model& model, const SolidRing& ring, const WheelModel& wheel,
+                double law_residual, WheelFigures& figures, const dynamics::State& at_start);
+
+  /// Number of numbers in SavedState::ring.
+  [[nodiscard]] static std::size_t n_numbers(const SolidRing& ring,
+                                             const WheelModel& wheel) noexcept {
+    return SolidWheel::n_numbers(ring, wheel);
+  }
+
+  void advance(std::span<dynamics::StepReport> reports,
+               dynamics::State* last = nullptr) noexcept override;
+  void fields(dynamics::State& state) const noexcept override;
+  [[nodiscard]] Resumable* resumable() noexcept override { return this; }
+  [[nodiscard]] dynamics::SavedState save() const override;
+  void restore(const dynamics::SavedState& saved) override;
+
+ private:
+  [[nodiscard]] SolidMotion motion_of(long long step) const;
+  void step(dynamics::StepReport& report);
+  [[nodiscard]] static dynamics::StepEnergy energy_of(const WheelEnergy& wheel);
+  void count(const SolidWheelReport& wheel, double seconds);
+  void report_contact(const SolidWheelReport& wheel, dynamics::ContactReport& report) const;
+  void list_contacts(const SolidWheelReport& wheel);
+  [[nodiscard]] std::size_t candidate_of(int contact_node) const noexcept;
+  void fill(dynamics::State& state) const;
+
+  const OneBlasThread one_blas_thread_;  ///< products are too small for more
+  const dynamics::Model& model_;
+  const SolidRing& ring_;
+  const double law_residual_;
+  WheelFigures& figures_;
+  std::vector<int> candidate_;  ///< (n) place among the candidates; -1: none
+  WheelAttitude attitude_;
+  SolidWheel wheel_;
+  dynamics::Ledger ledger_;
+  long long n_ = 0;  ///< number of steps made
+  dynamics::FrameStep frame_;
+  std::vector<dynamics::ActiveContact> active_;
+};
+
+}  // namespace rondo::rom
