@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
@@ -11,6 +12,8 @@ namespace rondo::rom {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t lateral_numbers = 5;  ///< of a rim that moves, in SavedState::ring
 
 SolidWheelSettings settings_of(const dynamics::Model& model, double law_residual) {
   return {.dt = model.dt,
@@ -45,7 +48,13 @@ SolidWheelRun::SolidWheelRun(const dynamics::Model& model, const SolidRing& ring
       wheel_(ring, wheel, *model.contact, settings_of(model, law_residual)) {
   RONDO_DEMAND(model.dt > 0.0 && model.solid, model.dt);
   active_.reserve(model.contact->nodes.size());
+  if (model.rim) rim_.emplace(model, SolidWheelSettings{}.theta, wheel.largest_spin);
+  begin(at_start);
+}
+
+void SolidWheelRun::begin(const dynamics::State& at_start) {
   SolidMotion start = motion_of(0);
+  if (rim_) start.plane = rim_->at_start();
   start.plane.angle_next = start.plane.angle;
   start.plane.center_next = start.plane.center;
   start.lateral_next = start.lateral;
@@ -53,14 +62,31 @@ SolidWheelRun::SolidWheelRun(const dynamics::Model& model, const SolidRing& ring
   start.plane.spin_rate = 0.0;
   wheel_.start(start, at_start.u.space(), at_start.v.space());
   frame_ = dynamics::frame_step(model_.motion, 0, model_.dt);
-  ledger_.compare(energy_of(wheel_.energy_at_start(true)));
+  if (rim_) {
+    rim_->start(wheel_.sums(start), wheel_.force_on_rim(start));
+    lateral_ = lateral_rate(0.0);
+    lateral_momentum_ = wheel_.lateral_momentum(start, start.plane.spin_next);
+    lateral_force_ = wheel_.lateral_force();
+    set_frame(start);
+  }
+  ledger_.compare(energy_of(wheel_.energy_at_start(!rim_)));
 }
 
-dynamics::StepEnergy SolidWheelRun::energy_of(const WheelEnergy& wheel) {
+dynamics::StepEnergy SolidWheelRun::energy_of(const WheelEnergy& wheel) const {
   dynamics::StepEnergy energy;
   energy.kinetic = wheel.kinetic;
   energy.strain = wheel.elastic + wheel.residual;
+  if (!rim_) return energy;
+  rim_->add_energy(energy);
+  const double body = rim_->whole_mass() - model_.rim->mass;
+  energy.kinetic += lateral_ * (0.5 * body * lateral_ + lateral_momentum_);
+  energy.kinetic_rim += 0.5 * model_.rim->mass * lateral_ * lateral_;
   return energy;
+}
+
+/// Mean velocity along t2 over the step from t on, which the tables give.
+double SolidWheelRun::lateral_rate(double t) const {
+  return model_.motion.advance(t, model_.dt).z / model_.dt;
 }
 
 /// Kinks of the motion are spread over the step that ends there.
@@ -114,7 +140,7 @@ void SolidWheelRun::report_contact(const SolidWheelReport& wheel,
   }
   report.dissipation_friction = wheel.energy.friction;
   report.loss_impact = wheel.energy.arrival;
-  report.work_rim = -wheel.energy.rim;
+  report.work_rim = rim_ ? 0.0 : -wheel.energy.rim;
   report.work = report.work_rim - report.dissipation_friction - report.loss_impact;
 }
 
@@ -124,7 +150,9 @@ void SolidWheelRun::count(const SolidWheelReport& wheel, double seconds) {
   figures_.iterations_max = std::max(figures_.iterations_max, wheel.iterations);
   figures_.contacts_max = std::max(figures_.contacts_max, static_cast<int>(wheel.contacts.size()));
   figures_.pivoted += wheel.by_newton ? 1 : 0;
-  figures_.not_converged += wheel.law_residual <= law_residual_ ? 0 : 1;
+  const bool solved = wheel.law_residual <= law_residual_ && !(rim_ && rim_->gave_up());
+  figures_.not_converged += solved ? 0 : 1;
+  if (rim_) figures_.spin_max = rim_->most_spin();
   figures_.wall_s += seconds;
   figures_.slowest_step_s = std::max(figures_.slowest_step_s, seconds);
 }
@@ -144,18 +172,51 @@ void SolidWheelRun::list_contacts(const SolidWheelReport& wheel) {
   std::ranges::sort(active_, {}, &dynamics::ActiveContact::candidate);
 }
 
+/// A step on a rim that moves along t1 and n, and along t2 as its tables say. The velocity along t2
+/// goes to its new value in the step; what holds it does the work of force and inertia.
+SolidWheelReport SolidWheelRun::step_on_rim(dynamics::Works& works) {
+  const double dt = model_.dt, before = lateral_, theta = SolidWheelSettings{}.theta;
+  SolidMotion motion = motion_of(n_);
+  lateral_ = lateral_rate(static_cast<double>(n_) * dt);
+  const double mean = 0.5 * (before + lateral_), change = lateral_ - before;
+  motion.lateral = frame_.center.z;
+  motion.lateral_next = motion.lateral + dt * mean;
+  motion.lateral_pull = change / dt;
+  const SolidWheelReport wheel = wheel_.step(n_, *rim_, motion, works);
+  const double momentum = wheel.lateral_momentum,
+               held = rim_->whole_mass() * change + momentum - lateral_momentum_;
+  const double force = theta * wheel.end.force.z + (1.0 - theta) * lateral_force_;
+  works.held += mean * (held - dt * force);
+  works.scheme += change * (0.5 * (momentum + lateral_momentum_) - wheel.lateral_middle) +
+                  dt * force * mean - wheel.lateral_work;
+  lateral_momentum_ = momentum;
+  lateral_force_ = wheel.end.force.z;
+  set_frame(motion);
+  return wheel;
+}
+
+/// The frame of a rim that moves, after a step.
+void SolidWheelRun::set_frame(const SolidMotion& motion) {
+  frame_ = rim_->frame();
+  frame_.slip_angle = model_.motion.slip_angle.at(frame_.time);
+  frame_.center.z = motion.lateral_next;
+  frame_.advance_before.z = motion.lateral_next - motion.lateral;
+}
+
 void SolidWheelRun::step(dynamics::StepReport& report) {
   const auto begin = Clock::now();
   dynamics::Works works;
-  const SolidWheelReport wheel = wheel_.step(motion_of(n_));
+  const SolidWheelReport wheel = rim_ ? step_on_rim(works) : wheel_.step(motion_of(n_));
   ++n_;
-  frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);
+  if (!rim_) frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);
   report = {};
+  if (rim_) report.rim = rim_->report();
   report.step = n_;
   report.frame = frame_;
   report_contact(wheel, report.contact);
   dynamics::set_contact_works(report.contact, works);
   works.frame = wheel.energy.frame;
+  works.load = wheel.load;
   works.dissipation_mass = wheel.energy.by_mass;
   works.dissipation_stiffness = wheel.energy.by_stiffness + wheel.energy.by_residual;
   works.scheme += wheel.energy.scheme;
@@ -191,19 +252,53 @@ void SolidWheelRun::fields(dynamics::State& state) const noexcept {
   wheel_.velocity(frame_.angle - 0.5 * frame_.turn_before, state.v_next.space());
 }
 
+std::size_t SolidWheelRun::n_numbers(const dynamics::Model& model, const SolidRing& ring,
+                                     const WheelModel& wheel) noexcept {
+  return SolidWheel::n_numbers(ring, wheel) +
+         (model.rim ? WheelRim::n_numbers + lateral_numbers : 0);
+}
+
+bool SolidWheelRun::is_saved(const dynamics::Model& model, const SolidRing& ring,
+                             const WheelModel& wheel, std::span<const double> numbers) noexcept {
+  return numbers.size() == n_numbers(model, ring, wheel) &&
+         SolidWheel::is_saved(ring, wheel, numbers.first(SolidWheel::n_numbers(ring, wheel))) &&
+         std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
+}
+
 dynamics::SavedState SolidWheelRun::save() const {
   dynamics::SavedState saved;
   saved.step = n_;
   saved.ring = wheel_.save();
+  if (rim_) {
+    const std::vector<double> rim = rim_->save();
+    saved.ring.insert(saved.ring.end(), rim.begin(), rim.end());
+    saved.ring.insert(saved.ring.end(), {lateral_, lateral_momentum_, lateral_force_,
+                                         frame_.center.z, frame_.advance_before.z});
+  }
   saved.ledger = ledger_.save();
   return saved;
 }
 
 void SolidWheelRun::restore(const dynamics::SavedState& saved) {
   n_ = saved.step;
-  wheel_.restore(saved.ring);
+  std::span<const double> numbers = saved.ring;
   ledger_.restore(saved.ledger);
-  frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);
+  if (!rim_) {
+    wheel_.restore(numbers);
+    frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);
+    return;
+  }
+  const auto aside = numbers.last(lateral_numbers);
+  numbers = numbers.first(numbers.size() - lateral_numbers);
+  rim_->restore(n_, numbers.last(WheelRim::n_numbers));
+  wheel_.restore(numbers.first(numbers.size() - WheelRim::n_numbers));
+  lateral_ = aside[0];
+  lateral_momentum_ = aside[1];
+  lateral_force_ = aside[2];
+  SolidMotion motion;
+  motion.lateral_next = aside[3];
+  motion.lateral = aside[3] - aside[4];
+  set_frame(motion);
 }
 
 }  // namespace rondo::rom

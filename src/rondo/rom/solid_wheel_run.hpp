@@ -2,6 +2,7 @@
 /// @file  The steps of a reduced wheel in three dimensions (solid/solid_wheel.hpp) with the
 /// interface of a full run; what wheel_run.hpp does for a disk.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "rondo/core/process_wide.hpp"
@@ -24,10 +25,12 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
                 double law_residual, WheelFigures& figures, const dynamics::State& at_start);
 
   /// Number of numbers in SavedState::ring.
-  [[nodiscard]] static std::size_t n_numbers(const SolidRing& ring,
-                                             const WheelModel& wheel) noexcept {
-    return SolidWheel::n_numbers(ring, wheel);
-  }
+  [[nodiscard]] static std::size_t n_numbers(const dynamics::Model& model, const SolidRing& ring,
+                                             const WheelModel& wheel) noexcept;
+  /// Whether numbers may come from save() of a run of this wheel.
+  [[nodiscard]] static bool is_saved(const dynamics::Model& model, const SolidRing& ring,
+                                     const WheelModel& wheel,
+                                     std::span<const double> numbers) noexcept;
 
   void advance(std::span<dynamics::StepReport> reports,
                dynamics::State* last = nullptr) noexcept override;
@@ -39,7 +42,11 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
  private:
   [[nodiscard]] SolidMotion motion_of(long long step) const;
   void step(dynamics::StepReport& report);
-  [[nodiscard]] static dynamics::StepEnergy energy_of(const WheelEnergy& wheel);
+  void begin(const dynamics::State& at_start);
+  SolidWheelReport step_on_rim(dynamics::Works& works);
+  void set_frame(const SolidMotion& motion);
+  [[nodiscard]] double lateral_rate(double t) const;
+  [[nodiscard]] dynamics::StepEnergy energy_of(const WheelEnergy& wheel) const;
   void count(const SolidWheelReport& wheel, double seconds);
   void report_contact(const SolidWheelReport& wheel, dynamics::ContactReport& report) const;
   void list_contacts(const SolidWheelReport& wheel);
@@ -54,8 +61,13 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
   std::vector<int> candidate_;  ///< (n) place among the candidates; -1: none
   WheelAttitude attitude_;
   SolidWheel wheel_;
+  std::optional<WheelRim> rim_;
   dynamics::Ledger ledger_;
   long long n_ = 0;  ///< number of steps made
+  // Along t2, of a rim that moves:
+  double lateral_ = 0.0;           ///< velocity                                       [m/s]
+  double lateral_momentum_ = 0.0;  ///< of the deformation                             [N s]
+  double lateral_force_ = 0.0;     ///< of the ground at the end of the last step        [N]
   dynamics::FrameStep frame_;
   std::vector<dynamics::ActiveContact> active_;
 };

@@ -336,7 +336,7 @@ void complete_wheel(const Case& c, std::optional<double> led,
   setup.reduced = fmt::format("a reduced wheel of {} modes{} with a step of {:.17g} s",
                               wheel.n_modes(), of_pod, setup.model.dt);
   setup.saved_numbers = wheel.solid
-                            ? rom::SolidWheelRun::n_numbers(*wheel.solid, wheel.model)
+                            ? rom::SolidWheelRun::n_numbers(setup.model, *wheel.solid, wheel.model)
                             : rom::WheelRun::n_numbers(setup.model, *wheel.ring, wheel.model);
   warn_of(c, setup, led.has_value(), wheel);
 }
@@ -351,7 +351,7 @@ std::unique_ptr<dynamics::Integrator> make_steps(const Setup& setup, PreparedWhe
 }
 
 bool is_saved(const Setup& setup, const PreparedWheel& wheel, std::span<const double> numbers) {
-  return wheel.solid ? rom::SolidWheel::is_saved(*wheel.solid, wheel.model, numbers)
+  return wheel.solid ? rom::SolidWheelRun::is_saved(setup.model, *wheel.solid, wheel.model, numbers)
                      : rom::WheelRun::is_saved(setup.model, *wheel.ring, wheel.model, numbers);
 }
 

@@ -123,8 +123,6 @@ constexpr std::array limits{
     Limit{has::pressure, 0, disk_reduced,
           "a reduced disk is one that its rim holds, on the ground, without pressures"},
     Limit{has::friction_law, 0, disk_reduced, "a reduced disk has one coefficient of friction"},
-    Limit{has::loaded_rim, 0, solid_reduced,
-          "the rim of a reduced wheel in three dimensions follows its tables"},
     Limit{has::nonlinear_cords, 0, solid_reduced,
           "a reduced wheel is linear about its inflated state"},
     Limit{has::viscosity, 0, solid_reduced,

@@ -20,9 +20,11 @@ constexpr int spare_sectors = 4;
 
 SolidWheel::Modes::Modes(const RingHarmonic& of) {
   const Index r = of.squares.size(), c = of.contact.rows();
-  for (Vector* v : {&state, &before, &work}) v->setZero(2 * r);
+  for (Vector* v : {&state, &before, &work, &shift, &lift, &twist}) v->setZero(2 * r);
   for (Vector* v : {&force, &outside, &held, &pushed}) v->setZero(r);
-  for (Vector* v : {&ground, &contact, &answered}) v->setZero(c);
+  for (Vector* v : {&ground, &contact, &answered, &shift_contact, &lift_contact, &twist_contact,
+                    &by_rate, &by_place, &by_axial})
+    v->setZero(c);
   for (Matrix* m : {&stiff, &inverse, &step}) m->setZero(r, r);
   one.setIdentity(r, r);
   reply.setZero(r, c);
@@ -143,7 +145,11 @@ void SolidWheel::use_spin(const SolidMotion& motion) {
   const WheelMotion& m = motion.plane;
   const double rate = m.kept_spin ? 0.0 : m.spin_rate, end = m.kept_spin.value_or(m.spin_next);
   new_table_ = rate != 0.0 || !has_matrices_ || spin_rate_ != 0.0 || spin_ != end;
-  if (!new_table_) return;
+  if (new_table_) take_spin(m, rate, end);
+  if (m.kept_spin && !has_shift_) shift_modes();
+}
+
+void SolidWheel::take_spin(const WheelMotion& m, double rate, double end) {
   residual_before_ = residual_stored();
   const bool other_spin = spin_ != end;
   spin_ = end;
@@ -154,6 +160,7 @@ void SolidWheel::use_spin(const SolidMotion& motion) {
     fill_step(harmonics_[h], spin, rate, modes_[h]);
   if (other_spin && !tables_.empty()) renew_residuals();
   has_matrices_ = true;
+  has_shift_ = false;
 }
 
 /// W of the window: G/(1 + β/Δt) and the answer of the modes, block after block by the lag.
@@ -221,13 +228,12 @@ void SolidWheel::move_contact() {
         harmonics_[h].contact * modes_[h].state.head(harmonics_[h].squares.size());
 }
 
-/// Displacement of a contact node by the modes. @param answered that by the forces of the step
-/// alone
-Vec3 SolidWheel::modal(int node, Complex turn, bool answered) const noexcept {
+/// Displacement of a contact node by the modes. @param of (3C) amplitudes of each harmonic
+Vec3 SolidWheel::modal(int node, Complex turn, const Vector Modes::*of) const noexcept {
   const Index c = Index{3} * local(node);
   Vec3 u;
   for_waves(harmonics_, turn, [&](std::size_t h, Complex wave) {
-    const Complexes* amplitude = (answered ? modes_[h].answered : modes_[h].contact).data() + c;
+    const Complexes* amplitude = (modes_[h].*of).data() + c;
     const double weight = harmonics_[h].weight();
     u += weight * Vec3(real_product(wave, amplitude[0]), real_product(wave, amplitude[1]),
                        real_product(wave, amplitude[2]));

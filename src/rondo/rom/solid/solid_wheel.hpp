@@ -61,8 +61,14 @@ struct SolidWheelReport {
   GroundForces end;   ///< at the end of the step
   GroundForces mean;  ///< θ of it and 1 - θ of that at its start: what moves modes and rim
   double torque = 0.0, mean_torque = 0.0;  ///< of these about the axle               [N m]
-  WheelEnergy energy;                      ///< [J]
-  int candidates = 0;                      ///< nodes whose contact was solved
+  /// Of a rim that moves: SolidWheel::lateral_momentum at the end, and its mean in the step [N s]
+  double lateral_momentum = 0.0, lateral_middle = 0.0;
+  double lateral_work = 0.0;  ///< of the force at the end along t2, part of WheelEnergy::rim [J]
+  double lateral_middle =
+      0.0;             ///< of a rim that moves: mean of SolidWheel::lateral_momentum  [N s]
+  double load = 0.0;   ///< work of the constant loads on the modes             [J]
+  WheelEnergy energy;  ///< [J]
+  int candidates = 0;  ///< nodes whose contact was solved
   int iterations = 0;
   bool by_newton = false;
   double law_residual = 0.0;  ///< over the largest force
@@ -83,6 +89,21 @@ class SolidWheel {
   void start(const SolidMotion& motion, std::span<const Vec3> u, std::span<const Vec3> v);
   /// Allocates nothing but room for more contacts than ever before, and in Newton's method.
   [[nodiscard]] SolidWheelReport step(const SolidMotion& motion);
+
+  /// Makes a step on a rim that moves by itself, and adds its works, with that of the scheme.
+  /// @param n number of steps made
+  /// @param aside its motion along t2: lateral numbers and attitude. At the end: that of the step
+  [[nodiscard]] SolidWheelReport step(long long n, WheelRim& rim, SolidMotion& aside,
+                                      dynamics::Works& works);
+  /// What the deformation holds of the momentum of the whole, after the last step.
+  [[nodiscard]] WheelSums sums(const SolidMotion& motion) const;
+  /// That along t2 at a spin [N s].
+  [[nodiscard]] double lateral_momentum(const SolidMotion& motion, double spin) const;
+  /// Force of the ground along t2 after the last step [N].
+  [[nodiscard]] double lateral_force() const noexcept { return last_.force.z; }
+  /// Force of the ground after the last step along t1 and n, and its torque about the axle [N],
+  /// [N m]
+  [[nodiscard]] RimVector force_on_rim(const SolidMotion& motion) const;
 
   [[nodiscard]] WheelEnergy energy_at_start(bool softened) const;
   /// Displacement of the free nodes after the last step, in the co-rotating frame; (n).
@@ -126,15 +147,26 @@ class SolidWheel {
     Matrix step, one;                    ///< (r, r) what is inverted; the identity
     Eigen::PartialPivLU<Matrix> factor;  ///< of it
     Matrix reply, answer;  ///< (r, 3C) inverse φ_cᴴ; (3C, 3C) share of the modes in W
+    // On a rim that moves: what unit accelerations along x, along the axle and of the angle do.
+    Vector shift, lift, twist;                          ///< (2r) at the end of the step
+    Vector shift_contact, lift_contact, twist_contact;  ///< (3C) φ_c y of these
+    Vector by_rate, by_place, by_axial;  ///< (3C) momenta by new forces, through p and through y
   };
+  using Columns = std::array<Vec3, 3>;
   /// A contact node near the ground.
   struct Near {
     int node = 0;
     Complex turn;  ///< e^{iψ} at the end of the step
+    Complex wave;  ///< the same where the modes are, which only a rim that moves distinguishes
     Vec3 free;     ///< place from the center at the end of the step without new forces   [m]
     Vec3 place;    ///< and with them                                                     [m]
     Vec3 force;    ///< at the end of the step                                            [N]
     bool candidate = false;
+    // On a rim that moves.
+    Vec3 still;     ///< `free` without accelerations beyond those of WheelRim::begin       [m]
+    Columns moved;  ///< change of `place` by unit accelerations along t1 and n and of the angle
+    Columns push;   ///< momenta of these by a force: their products with it
+    Columns reply;  ///< and the accelerations by it
   };
   /// What is remembered of a contact node.
   struct Memory {
@@ -149,16 +181,30 @@ class SolidWheel {
   static constexpr std::size_t numbers_of_node = 22;
 
   void use_spin(const SolidMotion& motion);
+  void take_spin(const WheelMotion& motion, double rate, double end);
   void set_residual(double spin);
   void fill_step(const RingHarmonic& of, double spin, double rate, Modes& modes);
   void push_by(const Modes& modes, const Vector& force, Vector& out) const;
   void move_modes(const SolidMotion& motion);
+  void shift_modes();
+  void twist_modes();
+  [[nodiscard]] Vec3 momentum_of(const Vector Modes::*of, bool places) const;
+  [[nodiscard]] Eigen::Matrix3d momenta_by_rate(const SolidMotion& motion) const;
+  void find_columns(const SolidMotion& motion);
+  void accelerate_near(const RimVector& z, const Eigen::Matrix3d& answer);
+  [[nodiscard]] RimVector push_on_rim() const;
+  void accelerate_modes(const RimVector& z, const SolidMotion& motion);
+  [[nodiscard]] WheelRim::End end_of(const SolidWheelReport& report, const SolidMotion& motion);
+  void turn_modes(double angle);
+  [[nodiscard]] double waves_at(const WheelMotion& m) const noexcept {
+    return m.kept_spin ? m.angle + settings_.dt * *m.kept_spin : m.angle_next;
+  }
   void move_contact();
   void make_window();
   [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> beyond(int lag) const;
   [[nodiscard]] Vec3 product(int to, int from, Vec3 force) const noexcept;
   void renew_residuals();
-  [[nodiscard]] Vec3 modal(int node, Complex wave, bool answered) const noexcept;
+  [[nodiscard]] Vec3 modal(int node, Complex wave, const Vector Modes::*of) const noexcept;
   [[nodiscard]] bool is_low(int sector, const SolidMotion& motion) const noexcept;
   void find_window(const SolidMotion& motion);
   void find_near(const SolidMotion& motion);
@@ -179,7 +225,7 @@ class SolidWheel {
   void take_forces(const SolidMotion& motion, SolidWheelReport& report);
   void push_modes(const Near& near);
   void filter_forces();
-  void account_modes(const SolidMotion& motion, WheelEnergy& energy) const;
+  void account_modes(const SolidMotion& motion, SolidWheelReport& report) const;
   void account(const SolidMotion& motion, SolidWheelReport& report);
   [[nodiscard]] double work_on_modes() const;
   void remember(const SolidMotion& motion);
@@ -223,7 +269,7 @@ class SolidWheel {
   std::vector<double> area_;  ///< (C) of the ground that a contact node presses          [m²]
   // Of the spin:
   double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
-  bool has_matrices_ = false, new_table_ = false;
+  bool has_matrices_ = false, new_table_ = false, has_shift_ = false, on_moving_rim_ = false;
   std::vector<double> tables_;    ///< (N, 3C, 3C) G at a spin between those of the model [m/N]
   Eigen::VectorXd centrifugal_;   ///< (rows) of the spin at its end                       [m]
   double residual_before_ = 0.0;  ///< energy at its start by the spin of the step before  [J]

@@ -70,15 +70,17 @@ void SolidWheel::find_near(const SolidMotion& m) {
   find_window(m);
   make_window();
   near_.clear();
-  const Complex frame = rotation(m.plane.angle_next);
+  const Complex frame = rotation(m.plane.angle_next), waves = rotation(waves_at(m.plane));
   const double left = filter();
   for (int d = 0; d < n_window_; ++d) {
     const int j = wrapped(first_ + d);
-    const Complex turn = frame * ring_.stiffness.turn[at(j)];
+    const Complex turn = frame * ring_.stiffness.turn[at(j)],
+                  wave = waves * ring_.stiffness.turn[at(j)];
     for (int c = 0; c < n_contact_; ++c) {
       Near& near = near_.emplace_back();
       near.node = j * n_contact_ + c;
       near.turn = turn;
+      near.wave = wave;
       Memory& memory = memory_of(near.node);
       if (memory.known == 0) {
         memory.residual = {};
@@ -88,8 +90,9 @@ void SolidWheel::find_near(const SolidMotion& m) {
       }
       const Index row = Index{3} * ring_.contact[at(c)];
       const Vec3 spun{centrifugal_[row], centrifugal_[row + 1], centrifugal_[row + 2]};
-      near.free = near.place =
-          arm(near.node) + spun + modal(near.node, turn, false) + left * memory.residual;
+      near.free = near.place = arm(near.node) + spun +
+                               modal(near.node, near.wave, &Modes::contact) +
+                               left * memory.residual;
     }
   }
   guess_forces(m);
@@ -173,6 +176,14 @@ void SolidWheel::fill_law(const SolidMotion& m) {
               dot(axes[1], slides), dot(axes[2], slides)};
     for (std::size_t k = 0; k < 3; ++k)
       c.axes[k] = conj(near.turn) * m.attitude_next.from_fixed(axes[k]);
+    if (on_moving_rim_)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto along = [&](Vec3 a) {
+          return Vec3{dot(c.axes[0], a), dot(c.axes[1], a), dot(c.axes[2], a)};
+        };
+        c.lift[k] = along(near.moved[k]);
+        c.reply[k] = along(near.reply[k]);
+      }
     c.friction = friction_of(near, touch_[i], m, c.free);
     c.force = {dot(c.axes[0], near.force), dot(c.axes[1], near.force), dot(c.axes[2], near.force)};
   }
@@ -182,6 +193,7 @@ void SolidWheel::fill_law(const SolidMotion& m) {
 void SolidWheel::place_all() {
   const Index rows = Index{3} * static_cast<Index>(near_.size());
   moved_.assign(at(rows), 0.0);
+  for (Near& near : near_) near.place = near.free;
   if (solved_.empty()) return;
   const Index begin = Index{3} * (static_cast<Index>(solved_.front()) / n_contact_ * n_contact_);
   const std::span<const double> known = law_.moved();
@@ -201,6 +213,12 @@ void SolidWheel::place_all() {
   }
   for (std::size_t i = 0; i < near_.size(); ++i)
     near_[i].place = near_[i].free + Vec3{moved_[3 * i], moved_[3 * i + 1], moved_[3 * i + 2]};
+  if (!on_moving_rim_) return;
+  std::array<double, 3> rates{};
+  for (const std::size_t i : solved_)
+    for (std::size_t k = 0; k < 3; ++k) rates[k] += dot(near_[i].reply[k], near_[i].force);
+  for (Near& near : near_)
+    for (std::size_t k = 0; k < 3; ++k) near.place += rates[k] * near.moved[k];
 }
 
 /// Nodes that were left out and are now in the ground become candidates. False: there are none.
@@ -267,7 +285,7 @@ void SolidWheel::solve(const SolidMotion& m, SolidWheelReport& report) {
 void SolidWheel::push_modes(const Near& near) {
   const Index row = Index{3} * local(near.node);
   const Vec3 part = near.force / static_cast<double>(ring_.n_sectors());
-  for_waves(harmonics_, near.turn, [&](std::size_t h, Complex wave) {
+  for_waves(harmonics_, near.wave, [&](std::size_t h, Complex wave) {
     const Complexes back(wave.re, -wave.im);
     modes_[h].ground[row] += part.x * back;
     modes_[h].ground[row + 1] += part.y * back;
@@ -324,7 +342,8 @@ void SolidWheel::filter_forces() {
     memory.residual_before = memory.residual;
     memory.filtered = left * memory.filtered + (1.0 - left) * near.force;
     const Vec3 moved{moved_[3 * i], moved_[3 * i + 1], moved_[3 * i + 2]};
-    memory.residual = left * memory.residual + moved - modal(near.node, near.turn, true);
+    memory.residual =
+        left * memory.residual + moved - modal(near.node, near.wave, &Modes::answered);
   }
 }
 

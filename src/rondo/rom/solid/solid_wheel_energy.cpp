@@ -35,7 +35,8 @@ double SolidWheel::work_on_modes() const {
 }
 
 /// Energy of the modes and what is done to them, but for the forces of the ground.
-void SolidWheel::account_modes(const SolidMotion& motion, WheelEnergy& e) const {
+void SolidWheel::account_modes(const SolidMotion& motion, SolidWheelReport& report) const {
+  WheelEnergy& e = report.energy;
   const WheelMotion& m = motion.plane;
   const double dt = settings_.dt, spin = (m.angle_next - m.angle) / dt;
   const double softened = m.kept_spin ? 0.0 : m.spin_next * m.spin_next;
@@ -53,7 +54,9 @@ void SolidWheel::account_modes(const SolidMotion& motion, WheelEnergy& e) const 
       e.elastic += 0.5 * n * of.squares[j] * std::norm(s.state[j]);
       e.by_mass += n * dt * settings_.mass_damping * middle;
       e.by_stiffness += n * dt * settings_.stiffness_damping * of.squares[j] * middle;
-      if (!m.kept_spin) e.frame += n * dt * (std::conj(p) * s.outside[j]).real();
+      const double load = n * dt * (std::conj(p) * of.load[j]).real();
+      report.load += load;
+      if (!m.kept_spin) e.frame += n * dt * (std::conj(p) * s.outside[j]).real() - load;
       for (Index l = 0; l < r; ++l) {
         planar += std::conj(s.state[j]) * of.planar(j, l) * s.state[l];
         planar_before += std::conj(s.before[j]) * of.planar(j, l) * s.before[l];
@@ -73,7 +76,7 @@ void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
   const WheelMotion& m = motion.plane;
   const double dt = settings_.dt;
   WheelEnergy& e = report.energy;
-  account_modes(motion, e);
+  account_modes(motion, report);
   double end = 0.0, across = 0.0, start = 0.0;
   for (const Near& near : near_) {
     const Memory& memory = memory_of(near.node);
@@ -105,6 +108,7 @@ void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
   e.rim = dot(report.end.force, motion.center_next() - motion.center()) +
           (m.angle_next - m.angle) * report.torque +
           dt * dot(report.end.moment, motion.attitude_next.to_fixed(Vec3(motion.turning)));
+  report.lateral_work = report.end.force.z * (motion.lateral_next - motion.lateral);
   e.scheme = work_on_modes() + 0.5 * (end - start) + e.by_residual + e.friction + e.arrival + e.rim;
   if (m.kept_spin) e.scheme += by_table;
 }

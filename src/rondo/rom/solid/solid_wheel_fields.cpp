@@ -199,7 +199,7 @@ void SolidWheel::contact_displacement(double angle, std::span<Vec3> u) const {
       const int row = ring_.contact[at(c)], node = j * n_contact_ + c;
       const Vec3 spun{centrifugal_[3 * row], centrifugal_[3 * row + 1], centrifugal_[3 * row + 2]};
       u[ring_.stiffness.node(at(row), at(j))] =
-          turn * (spun + modal(node, frame * turn, false) + memory_of(node).residual);
+          turn * (spun + modal(node, frame * turn, &Modes::contact) + memory_of(node).residual);
     }
   }
 }
