@@ -182,6 +182,7 @@ SolidWheelReport SolidWheelRun::step_on_rim(dynamics::Works& works) {
   motion.lateral = frame_.center.z;
   motion.lateral_next = motion.lateral + dt * mean;
   motion.lateral_pull = change / dt;
+  rim_->lean(std::tan(model_.motion.camber) * motion.lateral_pull);
   const SolidWheelReport wheel = wheel_.step(n_, *rim_, motion, works);
   const double momentum = wheel.lateral_momentum,
                held = rim_->whole_mass() * change + momentum - lateral_momentum_;

@@ -64,11 +64,9 @@ struct SolidWheelReport {
   /// Of a rim that moves: SolidWheel::lateral_momentum at the end, and its mean in the step [N s]
   double lateral_momentum = 0.0, lateral_middle = 0.0;
   double lateral_work = 0.0;  ///< of the force at the end along t2, part of WheelEnergy::rim [J]
-  double lateral_middle =
-      0.0;             ///< of a rim that moves: mean of SolidWheel::lateral_momentum  [N s]
-  double load = 0.0;   ///< work of the constant loads on the modes             [J]
-  WheelEnergy energy;  ///< [J]
-  int candidates = 0;  ///< nodes whose contact was solved
+  double load = 0.0;          ///< work of the constant loads on the modes             [J]
+  WheelEnergy energy;         ///< [J]
+  int candidates = 0;         ///< nodes whose contact was solved
   int iterations = 0;
   bool by_newton = false;
   double law_residual = 0.0;  ///< over the largest force

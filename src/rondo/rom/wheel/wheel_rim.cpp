@@ -144,7 +144,7 @@ void WheelRim::set_lines(const WheelAnswer& a) {
   const RimVector middle = 0.5 * (now_ + end_);
   known_ = momentum_ - error_ - momentum_of(end_, a.free) +
            dt * (outside(middle, 0.5 * (center_ + motion_.center_next)) + (1.0 - theta_) * force_);
-  known_[2] -= dt * cross(moment, motion_.pull);
+  known_[2] -= dt * (cross(moment, motion_.pull) - aside_ * moment.x);
 }
 
 RimVector WheelRim::hold() {
@@ -252,7 +252,7 @@ void WheelRim::finish(const End& end, dynamics::Works& works) {
   const Vec2 moment = 0.5 * (sums_.moment + end.sums.moment);
   RimVector force =
       outside(v, 0.5 * (m.center + m.center_next)) + theta_ * end.force + (1.0 - theta_) * force_;
-  force[2] -= cross(moment, plane(change) / dt - gravity_);
+  force[2] -= cross(moment, plane(change) / dt - gravity_) - aside_ * moment.x;
   if (brake_ == Brake::slips) force[2] -= braking_ * direction_;
   const RimVector after = momentum_of(end_, end.sums);
   RimVector missed = after - actual_ - dt * force, held = RimVector::Zero();

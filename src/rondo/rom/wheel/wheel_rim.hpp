@@ -64,6 +64,10 @@ class WheelRim {
   /// are the integral.
   void lead(const RimVector& end) noexcept { led_ = end; }
 
+  /// Call before begin(): of a wheel that is leaned, the tangent of its camber times its
+  /// acceleration along t2, which WheelSums::moment feels as a torque [m/s²].
+  void lean(double aside) noexcept { aside_ = aside; }
+
   /// The rim at t = 0 as a step that ends there.
   [[nodiscard]] WheelMotion at_start() const;
   /// @param sums of the deformation at t = 0
@@ -137,6 +141,7 @@ class WheelRim {
   Vec2 center_;
   RimVector now_, end_;           ///< velocities at both ends of the step
   std::optional<RimVector> led_;  ///< argument of lead()
+  double aside_ = 0.0;            ///< argument of lean()
   double kept_spin_ = 0.0;
   double most_spin_ = 0.0;
   double rate_ = 0.0;   ///< θ̈ of the last step                                      [rad/s²]
