@@ -310,10 +310,11 @@ SolidWheelReport SolidWheel::step(long long n, WheelRim& rim, SolidMotion& m,
   rim.finish(end_of(report, m), works);
   report.lateral_momentum = lateral_momentum(m, m.plane.spin_next);
   const double spin = (m.plane.angle_next - m.plane.angle) / settings_.dt;
-  report.lateral_middle = m.attitude_next
-                              .to_fixed(momentum_of(&Modes::work, false) +
-                                        spin * quarter_turn(momentum_of(&Modes::work, true)))
-                              .z;
+  const Complex turned = rotation(m.plane.angle_next - waves_at(m.plane));
+  const Vec3 moment =
+      0.5 * (momentum_of(&Modes::before, true) + turned * momentum_of(&Modes::state, true));
+  report.lateral_middle =
+      m.attitude_next.to_fixed(momentum_of(&Modes::work, false) + spin * quarter_turn(moment)).z;
   turn_modes(m.plane.angle_next - waves_at(m.plane));
   remember(m);
   return report;
