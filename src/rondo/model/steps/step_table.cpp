@@ -232,7 +232,6 @@ constexpr std::array limits{
     Limit{has::energy_safe, has::reduced, any,
           "ground.impact = \"energy-safe\" is a law of velocities, and that of a reduced wheel is "
           "one of gaps"},
-    Limit{has::friction_law, has::reduced, any, "a reduced wheel has one coefficient of friction"},
     Limit{has::friction_work, has::reduced, any,
           "the contacts of a reduced wheel have forces and gaps, but no slip of their own"},
     Limit{has::stress_stiffening, has::reduced | has::viscosity, any,
