@@ -20,6 +20,7 @@ CASES = {
     "braked to 10 rad/s": ("rolling-flat", "motion.angular_velocity=[[0.05,33.3],[0.15,10]]", "time.end=0.2"),
     "driven by a torque": ("wheel-driven",),
     "braked in pulses": ("wheel-abs",),
+    "braked over ice": ("wheel-mu-jump",),
     "on spokes": ("rolling-spokes",),
     "pitches of three lengths": ("rolling-pitches",),
 }

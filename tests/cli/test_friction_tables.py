@@ -296,13 +296,7 @@ class Refused(ProgramTest):
                       ("initial.state=steady-rolling", "motion.height=0.296")):
             self.assertIn("ground.patch", self.refused(["check"], PATCH, *given))
 
-    def test_standing_and_reduced_wheels_say_so(self):
-        for command, said in (("run", "a reduced wheel has one coefficient of friction"),
-                              ("fmu", "the wheel of an FMU has one coefficient of friction")):
-            reduced = ["--reduced", "--modes", "10"] if command == "run" else []
-            done = run(command, self.case(), "-o", self.folder / command, *reduced, *settings(RUBBER))
-            self.assertEqual(done.returncode, 2, done.stderr)
-            self.assertIn(f"ground.friction: {said}", done.stderr)
+    def test_standing_wheels_say_so(self):
         text = WHEEL3D.replace("height = [[0, 0.3], [0.004, 0.296]]", "height = 0.296")
         done = run("modes", self.case(text), "-o", self.folder / "modes", "--standing", *settings(RUBBER))
         self.assertEqual(done.returncode, 2, done.stderr)

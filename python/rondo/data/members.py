@@ -140,6 +140,7 @@ MEMBERS: dict[str, tuple[str, str, str]] = {
     "wheel.contact_iterations_max": ("", "", "Most iterations in a step"),
     "wheel.contacts_max": ("", "", "Most nodes in contact at once"),
     "wheel.steps_pivoted": ("", "", "Steps in which the contact law needed pivoting"),
+    "wheel.steps_late_friction": ("", "", "Steps whose coefficients of friction are those by slip and pressure of the step before, because those of the step itself were not found"),
     "wheel.steps_not_converged": ("", "", "Steps that missed the contact law by more than 1e-9, or whose brake no try held"),
     "wheel_estimate": ("", "", "Of a reduced wheel, with --estimate: changes of means over the last quarter"),
     "wheel_estimate.force_x": ("", "", "Larger change of the mean F_x by half the step or twice the modes, over the mean F_y"),

@@ -13,8 +13,10 @@ constexpr double fastest = 1e4;       // m/s
 constexpr double fastest_spin = 1e5;  // rad/s
 
 constexpr Variable table[] = {
-    {"friction", &Values::friction, Kind::parameter, "1", "Coulomb's, of tyre and ground", 0.0,
-     100.0},
+    {"friction", &Values::friction, Kind::parameter, "1",
+     "Coulomb's, of tyre and ground; where the case has a table or patches, its coefficient, which "
+     "their factors multiply",
+     0.0, 100.0},
     {"ground_height", &Values::ground_height, Kind::parameter, "m",
      "height at which the profile of the case has its zero", -farthest, farthest},
     {"width", &Values::width, Kind::parameter, "m",
@@ -56,15 +58,34 @@ constexpr Variable table[] = {
      "of the deformed tyre that touches, in the last internal step"},
 };
 
+/// Whether the factors of a table are the same everywhere.
+bool is_one_number(contact::FrictionTable table) {
+  table.coefficient = 1.0;
+  return table.is_constant();
+}
+
 }  // namespace
 
 std::span<const Variable> variables() noexcept {
   return table;
 }
 
+double friction_of(const study::Case& c) {
+  if (!c.ground) return 0.0;
+  const contact::FrictionTable& table = c.ground->friction;
+  return is_one_number(table) ? contact::largest_friction(table) : table.coefficient;
+}
+
+contact::FrictionTable friction_with(const study::Case& c, double friction) {
+  contact::FrictionTable table;
+  if (c.ground && !is_one_number(c.ground->friction)) table = c.ground->friction;
+  table.coefficient = friction;
+  return table;
+}
+
 Values start_values(const study::Case& c, double step) {
   Values v;
-  v.friction = c.ground ? contact::largest_friction(c.ground->friction) : 0.0;
+  v.friction = friction_of(c);
   v.hub_x_start = v.hub_x = c.motion.start_x;
   v.hub_height_start = v.hub_height = c.motion.height.at(0.0);
   v.step = step;

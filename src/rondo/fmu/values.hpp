@@ -43,6 +43,12 @@ struct Variable {
 
 [[nodiscard]] std::span<const Variable> variables() noexcept;
 
+/// Start value of `friction`: a constant coefficient, or the coefficient of a table.
+[[nodiscard]] double friction_of(const study::Case& c);
+/// The friction of the ground where the variable is `friction`: a constant, or the table of the
+/// case with this coefficient.
+[[nodiscard]] contact::FrictionTable friction_with(const study::Case& c, double friction);
+
 /// Start values from a case. @param step of the reduced wheel                                [s]
 [[nodiscard]] Values start_values(const study::Case& c, double step);
 

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <mutex>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 #include "rondo/analysis/build/build.hpp"
@@ -38,6 +39,9 @@ dynamics::Table height_table(double height, double velocity) {
 
 constexpr double led_speed = 60.0;  ///< to which a wheel may be led at least           [m/s]
 
+/// Words of warnings about the motion of a case, which is not that of its FMU.
+constexpr std::string_view of_motion[] = {"motion.", "tables of [motion]", "time.step"};
+
 /// Spin up to which the residual is made, whatever the inputs: states go from one instance to
 /// another.
 double led_spin(const study::Case& c) {
@@ -50,16 +54,10 @@ study::Case case_of(const study::Case& given, const Values& v) {
   if (given.initial.state == study::InitialState::steady_rolling && v.hub_angular_velocity == 0.0)
     throw study::case_error(given, "initial.state", "a wheel that stands does not roll steadily",
                             "a hub_angular_velocity other than 0 at the start, or \"rest\"");
-  if (given.ground && !given.ground->friction.is_constant())
-    throw study::case_error(given, "ground.friction",
-                            "the wheel of an FMU has one coefficient of friction, which its "
-                            "importer may set",
-                            "a number ground.friction, and no [[ground.patch]]");
   study::Case c = given;
   c.time.end = 1e-6;
   c.rim = dynamics::RimBody{};
-  c.ground->friction = {};
-  c.ground->friction.coefficient = v.friction;
+  c.ground->friction = friction_with(given, v.friction);
   c.motion.start_x = v.hub_x_start;
   c.motion.speed = dynamics::Table(v.hub_velocity_x);
   c.motion.angular_velocity = dynamics::Table(v.hub_angular_velocity);
@@ -147,7 +145,9 @@ void Wheel::begin(Values& values) {
   // Warnings about [motion] are replaced by those about the inputs.
   for (const auto* said : {&b.setup.warnings, &b.wheel.warnings})
     for (const std::string& text : *said)
-      if (text.find("motion.") == std::string::npos && text.find("time.step") == std::string::npos)
+      if (std::ranges::none_of(of_motion, [&](std::string_view words) {
+            return text.find(words) != std::string::npos;
+          }))
         warn(text);
   b.hub = velocities(values);
   make_integrator(b.largest_step);
@@ -242,6 +242,8 @@ std::string Wheel::go_on(Values& values, double length) {
   fill(values, static_cast<double>(n) * b.dt, to);
   values = to;
   b.hub = velocities(values);
+  const std::string late = study::late_friction_text(b.wheel.figures);
+  if (!late.empty() && said_.insert("friction").second) warnings_.push_back(late);
   return {};
 }
 

@@ -20,11 +20,24 @@ bool is_solved(const WheelReport& wheel) noexcept {
   return wheel.law_residual <= 1e-9;
 }
 
-WheelSettings settings_of(const dynamics::Model& model) {
+/// The boundary of each contact node of the first sector, as steps of full runs take it [m].
+std::vector<double> lengths_of(const dynamics::Model& model, const Ring& ring) {
+  std::vector<double> lengths;
+  for (const int row : ring.contact) {
+    const auto node = static_cast<int>(ring.stiffness.node(at(row), 0));
+    const auto found = std::ranges::find(model.contact->nodes, node);
+    RONDO_DEMAND(found != model.contact->nodes.end(), node);
+    lengths.push_back(model.contact->tributary[at(found - model.contact->nodes.begin())]);
+  }
+  return lengths;
+}
+
+WheelSettings settings_of(const dynamics::Model& model, const Ring& ring) {
   return {.dt = model.dt,
           .mass_damping = model.mass_damping,
           .stiffness_damping = model.stiffness_damping,
-          .friction = model.contact->law.friction.constant()};
+          .friction = model.contact->law.friction,
+          .lengths = lengths_of(model, ring)};
 }
 
 /// Numbers of the sums of a viscous wheel, which others do not keep.
@@ -91,13 +104,13 @@ WheelRun::WheelRun(const dynamics::Model& model, const Ring& ring, const WheelMo
       ring_(ring),
       figures_(figures),
       candidate_(model.n_nodes(), -1),
-      wheel_(ring, wheel, model.contact->ground, settings_of(model)),
+      wheel_(ring, wheel, model.contact->ground, settings_of(model, ring)),
       n_works_(works_of(wheel)) {
   RONDO_DEMAND(model.dt > 0.0, model.dt);
   for (std::size_t i = 0; i < model.contact->nodes.size(); ++i)
     candidate_[at(model.contact->nodes[i])] = static_cast<int>(i);
   active_.reserve(model.contact->nodes.size());
-  if (model.rim) rim_.emplace(model, settings_of(model).theta, wheel.largest_spin);
+  if (model.rim) rim_.emplace(model, WheelSettings{}.theta, wheel.largest_spin);
   begin(at_start);
 }
 
@@ -105,6 +118,7 @@ void WheelRun::begin(const dynamics::State& at_start) {
   WheelMotion start = rim_ ? rim_->at_start() : motion_of(0);
   start.angle_next = start.angle;
   start.center_next = start.center;
+  start.center -= model_.motion.advance(0.0, model_.dt).plane();
   start.spin_next = -model_.motion.angular_velocity.at(0.0);
   start.spin_rate = 0.0;
   wheel_.start(start, at_start.u, at_start.v);
@@ -179,6 +193,7 @@ void WheelRun::count(const WheelReport& wheel, double seconds) {
   figures_.iterations_max = std::max(figures_.iterations_max, wheel.iterations);
   figures_.contacts_max = std::max(figures_.contacts_max, static_cast<int>(wheel.contacts.size()));
   figures_.pivoted += wheel.pivoted ? 1 : 0;
+  figures_.late_friction += wheel.late ? 1 : 0;
   figures_.not_converged += is_solved(wheel) && !(rim_ && rim_->gave_up()) ? 0 : 1;
   if (rim_) figures_.spin_max = rim_->most_spin();
   figures_.wall_s += seconds;
@@ -251,14 +266,16 @@ void WheelRun::fields(dynamics::State& state) const noexcept {
 
 std::size_t WheelRun::n_numbers(const dynamics::Model& model, const Ring& ring,
                                 const WheelModel& wheel) noexcept {
-  return RingWheel::n_numbers(ring, wheel) + works_of(wheel) +
+  return RingWheel::n_numbers(ring, wheel, model.contact->law.friction) + works_of(wheel) +
          (model.rim ? WheelRim::n_numbers : 0);
 }
 
 bool WheelRun::is_saved(const dynamics::Model& model, const Ring& ring, const WheelModel& wheel,
                         std::span<const double> numbers) noexcept {
+  const contact::Friction& friction = model.contact->law.friction;
   return numbers.size() == n_numbers(model, ring, wheel) &&
-         RingWheel::is_saved(ring, wheel, numbers.first(RingWheel::n_numbers(ring, wheel))) &&
+         RingWheel::is_saved(ring, wheel, friction,
+                             numbers.first(RingWheel::n_numbers(ring, wheel, friction))) &&
          std::ranges::all_of(numbers, [](double x) { return std::isfinite(x); });
 }
 

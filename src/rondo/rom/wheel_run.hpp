@@ -22,6 +22,7 @@ struct WheelFigures {
   long long pivoted = 0;        ///< steps in which Newton's method did not end
   long long not_converged = 0;  ///< steps whose contact law is not met to 1e-9, or whose brake
                                 ///< does not hold
+  long long late_friction = 0;  ///< steps whose μ is that by the step before
   double spin_max = 0.0;        ///< largest |s| of a rim that moves                     [rad/s]
   double wall_s = 0.0, slowest_step_s = 0.0;
 };

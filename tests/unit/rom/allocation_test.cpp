@@ -6,18 +6,26 @@
 #include <tuple>
 
 #include "rolling_wheel.hpp"
+#include "rondo/contact/friction_table.hpp"
 #include "support/allocations.hpp"
 
 namespace rondo::rom::rolling_wheel {
 
-class Steps : public testing::TestWithParam<std::tuple<bool, bool, bool>> {};
+class Steps : public testing::TestWithParam<std::tuple<bool, bool, bool, bool>> {};
 
 TEST_P(Steps, OfAWheelAllocateNothing) {
-  const auto [whole, changes, viscous] = GetParam();
+  const auto [whole, changes, viscous, of_table] = GetParam();
   const OneBlasThread one;
   const Disk d(4, 60, whole);
   Rolling run{.modes = 40};
   if (viscous) run.branches = {{0.2, 1e-3}, {0.1, 1e-2}};
+  if (of_table) {
+    run.friction = contact::friction_of({.coefficient = 0.4,
+                                         .slip = {{0.0, 0.8}, {1.0, 1.2}},
+                                         .pressure_exponent = -0.15,
+                                         .patches = {}});
+    run.lengths.assign(whole ? 60 : 1, 0.03);
+  }
   if (changes) run.spins = dynamics::Table({{0.0, 25.0}, {1.0, 35.0}});
   Wheel w(d, run);
   int n = 0, contacts = 0;
@@ -36,11 +44,13 @@ TEST_P(Steps, OfAWheelAllocateNothing) {
   EXPECT_EQ(test::allocations() - counted, 1) << something[0];  // the counter counts
 }
 INSTANTIATE_TEST_SUITE_P(Wheels, Steps,
-                         testing::Combine(testing::Bool(), testing::Bool(), testing::Bool()),
+                         testing::Combine(testing::Bool(), testing::Bool(), testing::Bool(),
+                                          testing::Bool()),
                          [](const auto& info) {
                            return std::string(std::get<0>(info.param) ? "mesh" : "ring") +
                                   (std::get<1>(info.param) ? "_changing_spin" : "_constant_spin") +
-                                  (std::get<2>(info.param) ? "_viscous" : "");
+                                  (std::get<2>(info.param) ? "_viscous" : "") +
+                                  (std::get<3>(info.param) ? "_table_of_friction" : "");
                          });
 
 }  // namespace rondo::rom::rolling_wheel

@@ -226,10 +226,11 @@ TEST(RingWheel, WhatItDidNotSaveIsNotRestored) {
   const auto fits = [&](std::size_t back, double value) {
     std::vector<double> other = numbers;
     other[other.size() - back] = value;
-    return RingWheel::is_saved(w.ring, w.model, other);
+    return RingWheel::is_saved(w.ring, w.model, 0.0, other);
   };
-  EXPECT_TRUE(RingWheel::is_saved(w.ring, w.model, numbers));
-  EXPECT_FALSE(RingWheel::is_saved(w.ring, w.model, std::span(numbers).first(numbers.size() - 1)));
+  EXPECT_TRUE(RingWheel::is_saved(w.ring, w.model, 0.0, numbers));
+  EXPECT_FALSE(
+      RingWheel::is_saved(w.ring, w.model, 0.0, std::span(numbers).first(numbers.size() - 1)));
   EXPECT_FALSE(fits(1, 0.5));           // side
   EXPECT_FALSE(fits(2, 1e300));         // status
   EXPECT_FALSE(fits(3, 4.0));           // known places

@@ -44,7 +44,7 @@ inline const Disk& disk() {
 struct Rolling {
   int modes = 20;
   double passes = 2.618033989;  ///< steps in the pass of a sector
-  double friction = 0.4;
+  contact::Friction friction = 0.4;
   ResidualForm form = ResidualForm::convected;
   SlipRule slip = SlipRule::anchored;
   double theta = 0.6;
@@ -59,9 +59,11 @@ struct Rolling {
   double start_x = 0.0;
   std::vector<fem::ViscousBranch> branches{};
   double stiffness_damping = 2e-5;  ///< of what is damped
+  std::vector<double> lengths{};    ///< as WheelSettings has them
 
   [[nodiscard]] WheelSettings settings(double dt) const {
-    return {dt, damped ? 200.0 : 0.0, damped ? stiffness_damping : 0.0, friction, theta, slip};
+    return {dt,     damped ? 200.0 : 0.0, damped ? stiffness_damping : 0.0, friction, theta, slip,
+            lengths};
   }
 };
 

@@ -227,8 +227,8 @@ TEST(ViscousWheels, ResumeToTheSameBits) {
       static_cast<void>(first.wheel.step(first.motion.at(i)));
     }
     const std::vector<double> numbers = first.wheel.save();
-    EXPECT_EQ(numbers.size(), RingWheel::n_numbers(first.ring, first.model));
-    ASSERT_TRUE(RingWheel::is_saved(first.ring, first.model, numbers));
+    EXPECT_EQ(numbers.size(), RingWheel::n_numbers(first.ring, first.model, 0.0));
+    ASSERT_TRUE(RingWheel::is_saved(first.ring, first.model, 0.0, numbers));
     second.wheel.restore(numbers);
     for (int i = 100; i < 200; ++i) {
       const WheelReport a = whole.wheel.step(whole.motion.at(i)),

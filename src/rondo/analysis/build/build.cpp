@@ -360,7 +360,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared, Steps steps) {
   check_stability(c, s);
   tell_physical_figures(c, s);
   tell_road(c, s);
-  tell_ground(c, s);
+  tell_ground(c, steps, s);
   if (s.model.solid) tell_solid_figures(c, s);
 }
 

@@ -28,6 +28,8 @@ constexpr int few_modes_of_mesh = 20;
 constexpr int most_modes = 40, most_modes_of_tread = 90, fewest_modes = 10;
 constexpr double highest_mode = 1.5;      ///< ω Δt of the modes that are taken
 constexpr double speed_from_rest = 60.0;  ///< that a wheel from rest may come to         [m/s]
+constexpr double late_share = 0.01;       ///< steps whose friction is late: more are told
+constexpr long long few_late = 5;         ///< and so few are not
 constexpr double beyond_expected = 2.0;   ///< of the spin that is expected of a free one: known
 
 double radius_of(const Setup& setup) {
@@ -360,6 +362,18 @@ void prepare_wheel(const Case& c, const RunOptions& options, std::optional<doubl
   const OneBlasThread one;
   begin_wheel(c, options, led, setup, wheel);
   complete_wheel(c, led, harmonics_of(c, options, setup, wheel), setup, wheel);
+}
+
+std::string late_friction_text(const rom::WheelFigures& figures) {
+  const auto late = static_cast<double>(figures.late_friction),
+             steps = static_cast<double>(figures.contact_steps);
+  if (figures.late_friction <= few_late || late <= late_share * steps) return {};
+  return fmt::format(
+      "ground.friction: in {:.2g} % of the steps in contact the coefficients are those by slip and "
+      "pressure of the step before, because those of the step itself were not found: friction "
+      "falls with the slip so that nodes stick and slip in turn; compare with another "
+      "--reduced-step, or with the full run, without --reduced",
+      100.0 * late / steps);
 }
 
 }  // namespace rondo::study

@@ -78,4 +78,8 @@ void complete_wheel(const Case& c, std::optional<double> led,
 void prepare_wheel(const Case& c, const RunOptions& options, std::optional<double> led,
                    Setup& setup, PreparedWheel& wheel);
 
+/// A warning of friction whose coefficients were often those by the step before; empty: there is
+/// none. @param figures of a run
+[[nodiscard]] std::string late_friction_text(const rom::WheelFigures& figures);
+
 }  // namespace rondo::study

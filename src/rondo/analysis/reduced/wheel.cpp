@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "rondo/analysis/dynamic.hpp"
 #include "rondo/analysis/reduced/estimate_wheel.hpp"
@@ -58,6 +59,10 @@ constexpr JsonMember<WheelEnd> effort_rows[] = {
      [](const WheelEnd& e) -> Json { return e.f.contacts_max; }},
     {"steps_pivoted", "integer", "", "Steps in which the contact law needed pivoting",
      [](const WheelEnd& e) -> Json { return e.f.pivoted; }},
+    {"steps_late_friction", "integer", "",
+     "Steps whose coefficients of friction are those by slip and pressure of the step before, "
+     "because those of the step itself were not found",
+     [](const WheelEnd& e) -> Json { return e.f.late_friction; }},
     {"steps_not_converged", "integer", "",
      "Steps that missed the contact law by more than 1e-9, or whose brake no try held",
      [](const WheelEnd& e) -> Json { return e.f.not_converged; }},
@@ -149,6 +154,7 @@ class WheelAnalysis final : public DynamicAnalysis {
   void close() override {
     DynamicAnalysis::close();
     warn_of_spin();
+    if (std::string late = late_friction_text(wheel_.figures); !late.empty()) warn(std::move(late));
   }
   void take_tables() override {
     refuse_spin();

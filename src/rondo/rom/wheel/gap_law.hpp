@@ -18,6 +18,11 @@ struct GapContact {
   double free_slip = 0.0;        ///< and the distance slid along the tangent                  [m]
   double normal = 0.0;           ///< force; in: where to start                              [N/m]
   double shear = 0.0;            ///< along the tangent                                      [N/m]
+  double friction = 0.0;         ///< μ >= 0; where it changes, that at the next two
+  double slip_at = 0.0;          ///< |slip|                                                   [m]
+  double normal_at = 0.0;        ///< [N/m]
+  double by_slip = 0.0;          ///< derivative of μ by |slip|                              [1/m]
+  double by_normal = 0.0;        ///< and by the normal force                                [m/N]
   double gap = 0.0, slip = 0.0;  ///< with the forces                                    [m]
   contact::Status status = contact::Status::open;
   double side = 0.0;  ///< slips: shear = -side μ normal
@@ -37,15 +42,18 @@ class GapLaw {
     bool pivoted = false;
     double residual = 0.0;  ///< of the law, over the largest force                     [-]
   };
-  /// 0 <= normal ⊥ gap >= 0; |shear| <= μ normal, opposed to the slip.
-  Report solve(std::span<GapContact> contacts, double friction);
+  /// 0 <= normal ⊥ gap >= 0; |shear| <= μ normal, opposed to the slip. Where μ changes, its product
+  /// with the force is taken along its tangent, and there is no pivoting: the residual tells
+  /// whether this was solved.
+  Report solve(std::span<GapContact> contacts);
 
  private:
-  void settle(std::span<GapContact> contacts, double friction);
-  [[nodiscard]] bool judge(std::span<GapContact> contacts, double friction, bool all) const;
+  void settle(std::span<GapContact> contacts);
+  void follow_tangents(std::span<const GapContact> contacts, Eigen::Map<Eigen::MatrixXd>& a);
+  [[nodiscard]] bool judge(std::span<GapContact> contacts, bool all) const;
   void move(std::span<GapContact> contacts);
-  void pivot(std::span<GapContact> contacts, double friction);
-  [[nodiscard]] double residual(std::span<const GapContact> contacts, double friction) const;
+  void pivot(std::span<GapContact> contacts);
+  [[nodiscard]] double residual(std::span<const GapContact> contacts) const;
 
   std::size_t most_;
   std::vector<double> compliance_, matrix_;

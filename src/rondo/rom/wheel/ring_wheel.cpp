@@ -76,6 +76,7 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
   solved_.reserve(n);
   touch_.reserve(n);
   law_.reserve(n);
+  law_before_.reserve(n);
   contacts_.reserve(n);
   for (const RingHarmonic& h : harmonics_)
     modes_.emplace_back(h, is_whole(), model.branches.size());
@@ -83,6 +84,8 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
     creep_.emplace(model.creep, residuals, model.later, n, settings.stiffness_damping, settings.dt);
     forces_.reserve(n);
   }
+  if (!settings.friction.is_constant())
+    sliding_.emplace(settings.friction, settings.lengths, n, settings.dt);
   if (!is_whole()) return;
   std::vector<Vec2> arms;
   for (int node = 0; node < n_contact_; ++node) arms.push_back(arm(node));
@@ -345,7 +348,7 @@ WheelReport RingWheel::step(const WheelMotion& m) {
   use_spin(m);
   move_modes(m);
   find_near(m);
-  solve(m, settings_.friction, report);
+  solve(m, report);
   take_forces(m, report);
   account(m, report);
   remember(m);

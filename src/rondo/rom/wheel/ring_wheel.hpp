@@ -17,6 +17,7 @@
 #include "rondo/rom/wheel/gap_law.hpp"
 #include "rondo/rom/wheel/left_behind.hpp"
 #include "rondo/rom/wheel/ring_harmonics.hpp"
+#include "rondo/rom/wheel/sliding_memory.hpp"
 #include "rondo/rom/wheel/wheel_rim.hpp"
 
 namespace rondo::rom {
@@ -31,9 +32,12 @@ struct WheelSettings {
   double dt = 0.0;                 ///< [s]
   double mass_damping = 0.0;       ///< α                                        [1/s]
   double stiffness_damping = 0.0;  ///< β                                          [s]
-  double friction = 0.0;           ///< μ
+  contact::Friction friction;      ///< μ
   double theta = 0.6;              ///< share of the new force in that on the modes
   SlipRule slip = SlipRule::anchored;
+  /// (C) Boundary of each contact node of a sector, for its pressure; read only where the friction
+  /// is no constant [m]
+  std::vector<double> lengths{};
 };
 
 /// What the steps of a wheel need that is found once.
@@ -87,6 +91,7 @@ struct WheelReport {
   int candidates = 0;  ///< nodes whose contact was solved
   int iterations = 0;
   bool pivoted = false;
+  bool late = false;  ///< μ is that by the step before: that by the step itself was not found
   double law_residual = 0.0;  ///< over the largest force
   double free = 0.0;  ///< largest distance that a contact would move without forces      [m]
   std::span<const WheelContact> contacts;  ///< valid until the next step
@@ -127,12 +132,15 @@ class RingWheel {
   [[nodiscard]] Eigen::MatrixXd compliance(int lag);
 
   /// The numbers from which another wheel of this ring, and these settings, resumes bit for bit.
-  [[nodiscard]] static std::size_t n_numbers(const Ring& ring, const WheelModel& model) noexcept;
+  /// @param friction of the settings
+  [[nodiscard]] static std::size_t n_numbers(const Ring& ring, const WheelModel& model,
+                                             const contact::Friction& friction) noexcept;
   [[nodiscard]] std::vector<double> save() const;
   /// @pre is_saved()
   void restore(std::span<const double> numbers);
   /// Whether numbers may come from save() of a wheel of this model.
   [[nodiscard]] static bool is_saved(const Ring& ring, const WheelModel& model,
+                                     const contact::Friction& friction,
                                      std::span<const double> numbers) noexcept;
 
  private:
@@ -240,7 +248,7 @@ class RingWheel {
   void turn_modes(double angle);
   void begin(const WheelMotion& motion);
   void move_contact();
-  void look_at_start(const WheelMotion& motion, std::span<const Vec2> u);
+  void look_at_start(const WheelMotion& motion, std::span<const Vec2> u, std::span<const Vec2> v);
   void press_at_start(const WheelMotion& motion, std::span<const Vec2> u);
   [[nodiscard]] std::vector<std::size_t> touching(const WheelMotion& motion,
                                                   std::span<const Vec2> u);
@@ -263,7 +271,11 @@ class RingWheel {
   void find_reply(Near& from);
   void add_candidates(const WheelMotion& motion);
   void fill_law(const WheelMotion& motion);
-  void solve(const WheelMotion& motion, double friction, WheelReport& report);
+  [[nodiscard]] Vec2 place_before(const Near& near, const WheelMotion& motion) const;
+  [[nodiscard]] double friction_of(std::size_t candidate, const WheelMotion& motion) const;
+  [[nodiscard]] double take_tangents(const WheelMotion& motion);
+  void solve_law(const WheelMotion& motion, WheelReport& report);
+  void solve(const WheelMotion& motion, WheelReport& report);
   void place_all();
   [[nodiscard]] bool turn_normals(const WheelMotion& motion) const;
   [[nodiscard]] bool join(const WheelMotion& motion);
@@ -275,6 +287,8 @@ class RingWheel {
   [[nodiscard]] double work_on_modes() const;
   [[nodiscard]] Products products() const;
   void remember(const WheelMotion& motion);
+  void remember_sliding(const WheelMotion& motion);
+  void slide_at_start(const WheelMotion& motion, std::span<const Vec2> v);
   /// Calls work(node) for all contact nodes whose forces the residual remembers, ascending.
   template <class Work>
   void for_remembered(Work&& work) const {
@@ -357,10 +371,11 @@ class RingWheel {
   Real real_;
   double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
   bool has_matrices_ = false, new_table_ = false, has_shift_ = false;
-  std::optional<LeftBehind> left_;   ///< of a ring of one sector
-  std::optional<CreepField> creep_;  ///< of viscous materials, in place of filtered forces
-  std::vector<NodeForce> forces_;    ///< on contact nodes at the end of a step, for it
-  bool on_moving_rim_ = false;       ///< in the law
+  std::optional<LeftBehind> left_;        ///< of a ring of one sector
+  std::optional<CreepField> creep_;       ///< of viscous materials, in place of filtered forces
+  std::vector<NodeForce> forces_;         ///< on contact nodes at the end of a step, for it
+  std::optional<SlidingMemory> sliding_;  ///< of friction that is no constant
+  bool on_moving_rim_ = false;            ///< in the law
   std::vector<Modes> modes_;
   std::vector<Memory> memory_;       ///< (N C)
   std::vector<int> sector_, local_;  ///< (N C) of each contact node, so that none is divided for
@@ -376,6 +391,7 @@ class RingWheel {
   std::vector<std::size_t> solved_;    ///< places of the candidates in near_
   std::vector<contact::Touch> touch_;  ///< of these, at `place`
   std::vector<GapContact> law_;
+  std::vector<GapContact> law_before_;  ///< with μ by the step before
   std::vector<WheelContact> contacts_;
   GapLaw gap_law_;
 };

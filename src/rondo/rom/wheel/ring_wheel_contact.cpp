@@ -153,6 +153,7 @@ void RingWheel::fill_law(const WheelMotion& m) {
     c.free_slip = dot(tangent_of(normal), distance(near, m));
     c.status = was.status;
     c.side = was.side;
+    c.friction = friction_of(i, m);
   }
   double* w = gap_law_.compliance(n).data();
   for (std::size_t j = 0; j < n; ++j, w += 4 * n) {
@@ -208,7 +209,7 @@ bool RingWheel::turn_normals(const WheelMotion& m) const {
   return turned;
 }
 
-void RingWheel::solve(const WheelMotion& m, double friction, WheelReport& report) {
+void RingWheel::solve(const WheelMotion& m, WheelReport& report) {
   solved_.clear();
   law_.clear();
   if (!flat_) {  // the forces of before tell where nodes about are
@@ -229,10 +230,7 @@ void RingWheel::solve(const WheelMotion& m, double friction, WheelReport& report
     report.candidates = static_cast<int>(solved_.size());
     if (solved_.empty()) return;
     fill_law(m);
-    const GapLaw::Report solved = gap_law_.solve(law_, friction);
-    report.iterations += solved.iterations;
-    report.pivoted |= solved.pivoted;
-    report.law_residual = solved.residual;
+    solve_law(m, report);
     double free = 0.0;
     for (const GapContact& c : law_) {
       const Vec2 moved{c.free_slip, std::min(0.0, c.free_gap)};
@@ -327,6 +325,7 @@ void RingWheel::take_forces(const WheelMotion& m, WheelReport& report) {
 /// nodes.
 void RingWheel::remember(const WheelMotion& m) {
   move_contact();
+  if (sliding_) remember_sliding(m);
   std::erase_if(active_, [&](int node) {
     Memory& memory = memory_of(node);
     const bool gone = dot(memory.filtered, memory.filtered) < nothing * nothing;

@@ -28,6 +28,7 @@ void RingWheel::begin(const WheelMotion& m) {
   active_.clear();
   seen_.clear();
   if (creep_) creep_->clear();
+  if (sliding_) sliding_->clear();
   for (Modes& s : modes_) {
     s.strain.setZero();
     s.state.setZero();
@@ -46,14 +47,17 @@ void RingWheel::move_contact() {
 }
 
 /// Places of the nodes near the ground at the start.
-void RingWheel::look_at_start(const WheelMotion& m, std::span<const Vec2> u) {
+void RingWheel::look_at_start(const WheelMotion& m, std::span<const Vec2> u,
+                              std::span<const Vec2> v) {
   move_contact();
   find_near(m);
   solved_.clear();
+  touch_.clear();
   contacts_.clear();
   law_.clear();
   if (!u.empty()) press_at_start(m, u);
   remember(m);
+  if (sliding_ && !v.empty()) slide_at_start(m, v);
 }
 
 /// Near nodes that the field has on the ground; they get its places.
@@ -123,10 +127,13 @@ void RingWheel::press_at_start(const WheelMotion& m, std::span<const Vec2> u) {
     }
     const Vec2 normal = ground_.facet_near(m.center_next + near.place).normal,
                force = near.turn * near.own;
-    const double most = settings_.friction * dot(normal, force),
-                 shear = dot(tangent_of(normal), force);
+    const double pressed = dot(normal, force), shear = dot(tangent_of(normal), force);
+    if (sliding_) sliding_->press(near.node, pressed);
     solved_.push_back(nodes[i]);
+    touch_.push_back({0.0, normal});
+    const double most = friction_of(solved_.size() - 1, m) * pressed;
     law_.emplace_back();
+    law_.back().normal = pressed;
     law_.back().status =
         std::abs(shear) < 0.999 * most ? contact::Status::stick : contact::Status::slip;
     if (law_.back().status == contact::Status::slip && most > 0.0)
@@ -152,14 +159,14 @@ void RingWheel::start(const WheelMotion& m) {
       for (Index j = 0; j < harmonics_[h].squares.size(); ++j)
         modes_[h].state[j] = m.spin_next * m.spin_next * harmonics_[h].reference[j] /
                              (harmonics_[h].squares[j] - m.spin_next * m.spin_next);
-  look_at_start(m, {});
+  look_at_start(m, {}, {});
 }
 
 void RingWheel::start(const WheelMotion& m, std::span<const Vec2> u, std::span<const Vec2> v) {
   begin(m);
   project(m.angle_next, u, false);
   project(m.angle_next, v, true);
-  look_at_start(m, u);
+  look_at_start(m, u, v);
 }
 
 /// φᴴ M of a field, harmonic by harmonic.

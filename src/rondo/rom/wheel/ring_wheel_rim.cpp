@@ -230,7 +230,7 @@ WheelReport RingWheel::step(long long n, WheelRim& rim, dynamics::Works& works) 
     const RimVector z = rim.hold();
     accelerate_near(z, rim.answer());
     report = {};
-    solve(m, settings_.friction, report);
+    solve(m, report);
   } while (!rim.settled(push_on_rim()));
   on_moving_rim_ = false;
   accelerate_modes(rim.change());

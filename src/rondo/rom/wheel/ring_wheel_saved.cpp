@@ -53,7 +53,8 @@ class Reader {
 
 }  // namespace
 
-std::size_t RingWheel::n_numbers(const Ring& ring, const WheelModel& model) noexcept {
+std::size_t RingWheel::n_numbers(const Ring& ring, const WheelModel& model,
+                                 const contact::Friction& friction) noexcept {
   Index n = 1;
   const auto per_mode = static_cast<Index>(6 + 2 * model.branches.size());
   for (const RingHarmonic& h : model.harmonics) n += per_mode * h.squares.size();
@@ -62,13 +63,15 @@ std::size_t RingWheel::n_numbers(const Ring& ring, const WheelModel& model) noex
       model.creep.empty()
           ? 0
           : CreepField::n_numbers(model.creep.size(), model.residuals.size(), nodes);
-  return at(n) + creep + numbers_of_node * nodes;
+  const std::size_t sliding = friction.is_constant() ? 0 : SlidingMemory::numbers_of_node * nodes;
+  return at(n) + creep + sliding + numbers_of_node * nodes;
 }
 
 /// Modes take any finite numbers; nodes have counts and statuses among theirs, which are checked.
 bool RingWheel::is_saved(const Ring& ring, const WheelModel& model,
+                         const contact::Friction& friction,
                          std::span<const double> numbers) noexcept {
-  if (numbers.size() != n_numbers(ring, model)) return false;
+  if (numbers.size() != n_numbers(ring, model, friction)) return false;
   const auto one_of = [](double x, std::initializer_list<double> known) {
     return std::ranges::find(known, x) != known.end();
   };
@@ -83,13 +86,14 @@ bool RingWheel::is_saved(const Ring& ring, const WheelModel& model,
 
 std::vector<double> RingWheel::save() const {
   std::vector<double> out{spin_};
-  out.reserve(n_numbers(ring_, model_));
+  out.reserve(n_numbers(ring_, model_, settings_.friction));
   for (const Modes& s : modes_) {
     put(s.state, out);
     put(s.force, out);
     for (Index b = 0; b < s.strain.cols(); ++b) put(s.strain.col(b), out);
   }
   if (creep_) creep_->save(out);
+  if (sliding_) sliding_->save(out);
   for (const Memory& m : memory_) {
     for (const Vec2 x : {m.force, m.filtered, m.place[0], m.place[1], m.place[2]})
       out.insert(out.end(), {x.x, x.y});
@@ -100,7 +104,7 @@ std::vector<double> RingWheel::save() const {
 }
 
 void RingWheel::restore(std::span<const double> numbers) {
-  RONDO_DEMAND(is_saved(ring_, model_, numbers), numbers.size());
+  RONDO_DEMAND(is_saved(ring_, model_, settings_.friction, numbers), numbers.size());
   Reader from(numbers);
   const double spin = from.next();
   if (!has_matrices_ || spin_rate_ != 0.0 || spin_ != spin) {
@@ -116,6 +120,7 @@ void RingWheel::restore(std::span<const double> numbers) {
   if (creep_)
     creep_->restore(from.take(
         CreepField::n_numbers(model_.creep.size(), model_.residuals.size(), memory_.size())));
+  if (sliding_) sliding_->restore(from.take(SlidingMemory::numbers_of_node * memory_.size()));
   move_contact();
   active_.clear();
   seen_.clear();

@@ -104,20 +104,19 @@ void warn_of_unknown_pressures(const Case& c, Setup& s) {
       c.ground->friction.pressure_exponent != 0.0)
     s.warnings.push_back(
         "initial.state: the first step does not know the pressures of a step before it, and takes "
-        "a "
-        "tenth of ground.friction.pressure_reference: its tangential force is that of another "
+        "a tenth of ground.friction.pressure_reference: its tangential force is that of another "
         "coefficient");
 }
 
 }  // namespace
 
-void tell_ground(const Case& c, Setup& s) {
+void tell_ground(const Case& c, Steps steps, Setup& s) {
   if (!c.ground || !s.model.contact || c.analysis.kind != AnalysisKind::dynamic) return;
   const Stretch reach = reach_along(c, s.mesh);
   tell_obstacles(c, reach, s);
   tell_friction_table(c.ground->friction, s);
   tell_patches(c, reach, s);
-  warn_of_unknown_pressures(c, s);
+  if (steps == Steps::of_full_run) warn_of_unknown_pressures(c, s);
 }
 
 }  // namespace rondo::study

@@ -2,11 +2,12 @@
 /// @file  What `rondo check` tells of the obstacles and the friction of the ground, and warnings of
 /// what the body does not meet.
 #pragma once
-#include "rondo/case/setup.hpp"
+#include "rondo/analysis/build/build.hpp"
 
 namespace rondo::study {
 
 /// Adds lines and warnings to the setup. @pre s.mesh is made
-void tell_ground(const Case& c, Setup& s);
+/// @param steps those of a reduced wheel know the pressures of a start in steady rolling
+void tell_ground(const Case& c, Steps steps, Setup& s);
 
 }  // namespace rondo::study
