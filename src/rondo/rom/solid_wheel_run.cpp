@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t lateral_numbers = 5;  ///< of a rim that moves, in SavedState::ring
+constexpr std::size_t lateral_numbers = 9;  ///< of a rim that moves, in SavedState::ring
 
 SolidWheelSettings settings_of(const dynamics::Model& model, double law_residual) {
   return {.dt = model.dt,
@@ -44,8 +44,8 @@ SolidWheelRun::SolidWheelRun(const dynamics::Model& model, const SolidRing& ring
       law_residual_(law_residual),
       figures_(figures),
       candidate_(dynamics::places_among(model.contact->nodes, model.n_nodes())),
-      attitude_(model.motion.camber),
-      wheel_(ring, wheel, *model.contact, settings_of(model, law_residual)) {
+      wheel_(ring, wheel, *model.contact, settings_of(model, law_residual)),
+      camber_(model.motion.camber) {
   RONDO_DEMAND(model.dt > 0.0 && model.solid, model.dt);
   active_.reserve(model.contact->nodes.size());
   if (model.rim) rim_.emplace(model, SolidWheelSettings{}.theta, wheel.largest_spin);
@@ -108,7 +108,7 @@ SolidMotion SolidWheelRun::motion_of(long long step) const {
   const Vec3 pull = (way - of.advance(t - dt, dt)) / (dt * dt);
   m.pull = pull.plane() - of.gravity_at(t + 0.5 * dt);
   motion.lateral_pull = pull.z;
-  motion.attitude = motion.attitude_next = attitude_;
+  motion.attitude = motion.attitude_next = WheelAttitude(camber_, yaw_);
   return motion;
 }
 
@@ -122,10 +122,13 @@ std::size_t SolidWheelRun::candidate_of(int contact_node) const noexcept {
 void SolidWheelRun::report_contact(const SolidWheelReport& wheel,
                                    dynamics::ContactReport& report) const {
   const double dt = model_.dt, height = frame_.center.y;
-  report.impulse = dt * wheel.mean.force;
+  const WheelAttitude attitude(camber_, yaw_);
+  const Vec3 force = attitude.to_heading(wheel.mean.force),
+             moment = attitude.to_heading(wheel.mean.moment);
+  report.impulse = dt * force;
   report.angular_impulse = dt * wheel.mean_torque;
-  report.moment_aligning = dt * wheel.mean.moment.y;
-  report.moment_overturning = dt * (wheel.mean.moment.x + height * wheel.mean.force.z);
+  report.moment_aligning = dt * moment.y;
+  report.moment_overturning = dt * (moment.x + height * force.z);
   report.free_velocity = wheel.free / dt;
   report.residual = wheel.law_residual * report.free_velocity;
   report.clusters = wheel.candidates > 0 ? 1 : 0;
@@ -172,17 +175,39 @@ void SolidWheelRun::list_contacts(const SolidWheelReport& wheel) {
   std::ranges::sort(active_, {}, &dynamics::ActiveContact::candidate);
 }
 
+/// How a hub that is led turns about the axes of the ground in the step.
+void SolidWheelRun::turn_hub(SolidMotion& motion) {
+  if (!led_) return;
+  const double dt = model_.dt, before = camber_;
+  const Vec2 mean = 0.5 * Vec2{camber_rate_ + led_->camber_rate, yaw_rate_ + led_->yaw_rate};
+  const Vec2 change = Vec2{led_->camber_rate - camber_rate_, led_->yaw_rate - yaw_rate_} / dt;
+  camber_ += dt * mean.x;
+  yaw_ += dt * mean.y;
+  camber_rate_ = led_->camber_rate;
+  yaw_rate_ = led_->yaw_rate;
+  motion.attitude_next = WheelAttitude(camber_, yaw_);
+  const double lean = std::cos(0.5 * (before + camber_));
+  motion.turning = {-mean.x, lean * mean.y};
+  motion.turning_rate = {-change.x, lean * change.y};
+}
+
 /// A step on a rim that moves along t1 and n, and along t2 as its tables say. The velocity along t2
 /// goes to its new value in the step; what holds it does the work of force and inertia.
 SolidWheelReport SolidWheelRun::step_on_rim(dynamics::Works& works) {
   const double dt = model_.dt, before = lateral_, theta = SolidWheelSettings{}.theta;
   SolidMotion motion = motion_of(n_);
-  lateral_ = lateral_rate(static_cast<double>(n_) * dt);
+  turn_hub(motion);
+  Vec3 aim{0.0, 0.0, lateral_rate(static_cast<double>(n_) * dt)};
+  if (led_) {
+    aim = motion.attitude_next.from_heading(led_->along);
+    rim_->lead({aim.x, aim.y, led_->spin});
+  }
+  lateral_ = aim.z;
   const double mean = 0.5 * (before + lateral_), change = lateral_ - before;
   motion.lateral = frame_.center.z;
   motion.lateral_next = motion.lateral + dt * mean;
   motion.lateral_pull = change / dt;
-  rim_->lean(std::tan(model_.motion.camber) * motion.lateral_pull);
+  rim_->lean(std::tan(camber_) * motion.lateral_pull);
   const SolidWheelReport wheel = wheel_.step(n_, *rim_, motion, works);
   const double momentum = wheel.lateral_momentum,
                held = rim_->whole_mass() * change + momentum - lateral_momentum_;
@@ -190,6 +215,11 @@ SolidWheelReport SolidWheelRun::step_on_rim(dynamics::Works& works) {
   works.held += mean * (held - dt * force);
   works.scheme += change * (0.5 * (momentum + lateral_momentum_) - wheel.lateral_middle) +
                   dt * force * mean - wheel.lateral_work;
+  const dynamics::RimReport& rim = rim_->report();
+  hub_.held = motion.attitude_next.to_heading({rim.force.x, rim.force.y, held / dt - force});
+  hub_.torque = -rim.torque;
+  hub_.force = motion.attitude_next.to_heading(wheel.mean.force);
+  hub_.moment = motion.attitude_next.to_heading(wheel.mean.moment);
   lateral_momentum_ = momentum;
   lateral_force_ = wheel.end.force.z;
   set_frame(motion);
@@ -274,7 +304,8 @@ dynamics::SavedState SolidWheelRun::save() const {
     const std::vector<double> rim = rim_->save();
     saved.ring.insert(saved.ring.end(), rim.begin(), rim.end());
     saved.ring.insert(saved.ring.end(), {lateral_, lateral_momentum_, lateral_force_,
-                                         frame_.center.z, frame_.advance_before.z});
+                                         frame_.center.z, frame_.advance_before.z, camber_, yaw_,
+                                         camber_rate_, yaw_rate_});
   }
   saved.ledger = ledger_.save();
   return saved;
@@ -296,6 +327,10 @@ void SolidWheelRun::restore(const dynamics::SavedState& saved) {
   lateral_ = aside[0];
   lateral_momentum_ = aside[1];
   lateral_force_ = aside[2];
+  camber_ = aside[5];
+  yaw_ = aside[6];
+  camber_rate_ = aside[7];
+  yaw_rate_ = aside[8];
   SolidMotion motion;
   motion.lateral_next = aside[3];
   motion.lateral = aside[3] - aside[4];

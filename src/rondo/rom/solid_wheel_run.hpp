@@ -17,6 +17,21 @@ namespace rondo::rom {
                                           std::vector<RingHarmonic> harmonics,
                                           const KnownSpins& spins);
 
+/// Velocities of a hub that is led from outside.
+struct HubVelocity {
+  Vec3 along;         ///< along the heading, out of the ground, and to the right        [m/s]
+  double spin = 0.0;  ///< s, counter-clockwise                                        [rad/s]
+  double camber_rate = 0.0, yaw_rate = 0.0;  ///< of WheelAttitude                        [rad/s]
+};
+
+/// What a hub felt in the last step; along its heading, out of the ground, and to the right.
+struct HubReport {
+  Vec3 held;            ///< force that held it against the ground and the inertia of the wheel [N]
+  double torque = 0.0;  ///< torque that held its spin, counter-clockwise                  [N m]
+  Vec3 force;           ///< mean force of the ground                                        [N]
+  Vec3 moment;          ///< and its moment about the center                               [N m]
+};
+
 class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resumable {
  public:
   /// All but the state must outlive it. @param model dt: that of the reduced step
@@ -32,6 +47,15 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
                                      const WheelModel& wheel,
                                      std::span<const double> numbers) noexcept;
 
+  /// In this and all later steps the hub has these velocities at the end of the step and approaches
+  /// them linearly, whatever the tables say. @pre the model has a rim, of which nothing is free
+  void lead(const HubVelocity& end) noexcept { led_ = end; }
+  [[nodiscard]] const WheelRim* rim() const noexcept { return rim_ ? &*rim_ : nullptr; }
+  [[nodiscard]] const HubReport& hub() const noexcept { return hub_; }
+  /// Camber and yaw after the last step [rad].
+  [[nodiscard]] double camber() const noexcept { return camber_; }
+  [[nodiscard]] double yaw() const noexcept { return yaw_; }
+
   void advance(std::span<dynamics::StepReport> reports,
                dynamics::State* last = nullptr) noexcept override;
   void fields(dynamics::State& state) const noexcept override;
@@ -44,6 +68,7 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
   void step(dynamics::StepReport& report);
   void begin(const dynamics::State& at_start);
   SolidWheelReport step_on_rim(dynamics::Works& works);
+  void turn_hub(SolidMotion& motion);
   void set_frame(const SolidMotion& motion);
   [[nodiscard]] double lateral_rate(double t) const;
   [[nodiscard]] dynamics::StepEnergy energy_of(const WheelEnergy& wheel) const;
@@ -59,11 +84,15 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
   const double law_residual_;
   WheelFigures& figures_;
   std::vector<int> candidate_;  ///< (n) place among the candidates; -1: none
-  WheelAttitude attitude_;
   SolidWheel wheel_;
   std::optional<WheelRim> rim_;
   dynamics::Ledger ledger_;
-  long long n_ = 0;  ///< number of steps made
+  long long n_ = 0;            ///< number of steps made
+  double camber_, yaw_ = 0.0;  ///< [rad]
+  // Of a hub that is led:
+  std::optional<HubVelocity> led_;
+  double camber_rate_ = 0.0, yaw_rate_ = 0.0;  ///< at the end of the last step        [rad/s]
+  HubReport hub_;
   // Along t2, of a rim that moves:
   double lateral_ = 0.0;           ///< velocity                                       [m/s]
   double lateral_momentum_ = 0.0;  ///< of the deformation                             [N s]

@@ -122,7 +122,6 @@ constexpr std::array limits{
           "a reduced wheel has a step of its own"},
     Limit{has::pressure, 0, disk_reduced,
           "a reduced disk is one that its rim holds, on the ground, without pressures"},
-    Limit{has::friction_law, 0, disk_reduced, "a reduced disk has one coefficient of friction"},
     Limit{has::nonlinear_cords, 0, solid_reduced,
           "a reduced wheel is linear about its inflated state"},
     Limit{has::viscosity, 0, solid_reduced,
