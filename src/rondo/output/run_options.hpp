@@ -35,6 +35,7 @@ struct RunOptions {
   std::filesystem::path reduced;
   std::optional<long long> reduced_modes;  ///< of a wheel made of the case; none: chosen
   std::optional<double> reduced_step;      ///< of a reduced wheel; none: chosen            [s]
+  std::optional<double> law_residual;      ///< of one in three dimensions; none: chosen
   bool reduced_estimate = false;           ///< of its errors
   std::filesystem::path modes_from;        ///< run whose modes start a crush by LATIN-PGD; or empty
   std::string modes_told;                  ///< its name in run.json; empty: modes_from

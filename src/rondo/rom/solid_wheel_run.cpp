@@ -153,6 +153,7 @@ void SolidWheelRun::count(const SolidWheelReport& wheel, double seconds) {
   figures_.iterations_max = std::max(figures_.iterations_max, wheel.iterations);
   figures_.contacts_max = std::max(figures_.contacts_max, static_cast<int>(wheel.contacts.size()));
   figures_.pivoted += wheel.by_newton ? 1 : 0;
+  figures_.late_friction += wheel.late ? 1 : 0;
   const bool solved = wheel.law_residual <= law_residual_ && !(rim_ && rim_->gave_up());
   figures_.not_converged += solved ? 0 : 1;
   if (rim_) figures_.spin_max = rim_->most_spin();
@@ -303,9 +304,9 @@ dynamics::SavedState SolidWheelRun::save() const {
   if (rim_) {
     const std::vector<double> rim = rim_->save();
     saved.ring.insert(saved.ring.end(), rim.begin(), rim.end());
-    saved.ring.insert(saved.ring.end(), {lateral_, lateral_momentum_, lateral_force_,
-                                         frame_.center.z, frame_.advance_before.z, camber_, yaw_,
-                                         camber_rate_, yaw_rate_});
+    saved.ring.insert(saved.ring.end(),
+                      {lateral_, lateral_momentum_, lateral_force_, frame_.center.z,
+                       frame_.advance_before.z, camber_, yaw_, camber_rate_, yaw_rate_});
   }
   saved.ledger = ledger_.save();
   return saved;

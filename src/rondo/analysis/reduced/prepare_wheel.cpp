@@ -85,6 +85,22 @@ double step_of(double end, const RunOptions& options, const ExpectedContact& e) 
   return e.pass / (std::max(1.0, std::ceil(passes - beyond_whole - 1e-9)) + beyond_whole);
 }
 
+/// The residual of the law of contact that is asked for.
+double law_residual_of(const RunOptions& options, const Setup& setup) {
+  constexpr double usual = 1e-6, least = 1e-12, most = 1e-3;
+  if (!options.law_residual) return usual;
+  const double asked = *options.law_residual;
+  if (!setup.model.solid)
+    throw request_error("--law-residual", fmt::format("{:.9g}", asked),
+                        "is of a reduced wheel in three dimensions: that of a disk is solved to "
+                        "round-off",
+                        "no --law-residual");
+  if (asked >= least && asked <= most) return asked;
+  throw request_error("--law-residual", fmt::format("{:.9g}", asked),
+                      "is no residual of the law of contact",
+                      fmt::format("a number from {:g} to {:g}, e.g. 1e-6", least, most));
+}
+
 /// Spins of the residual: those of the tables; of a free or led spin well beyond what is expected,
 /// as far as no spin there is critical.
 rom::KnownSpins spins_of(const Case& c, std::optional<double> led, double expected, double radius) {
@@ -305,6 +321,7 @@ void begin_wheel(const Case& c, const RunOptions& options, std::optional<double>
       step_of(led ? std::numeric_limits<double>::infinity() : c.time.end, options, wheel.expected);
   setup.n_steps = count_steps(c, setup.model.dt);
   const dynamics::Model& model = setup.model;
+  wheel.law_residual = law_residual_of(options, setup);
   if (model.solid) {
     wheel.solid.emplace(rom::make_solid_ring(model.solid->sector, model.mass, model.reference,
                                              model.solid->axial, model.contact->nodes));
@@ -335,8 +352,10 @@ void complete_wheel(const Case& c, std::optional<double> led,
   const std::string of_pod = wheel.basis == WheelBasis::pod
                                  ? fmt::format(" of a POD up to {:.17g} rad/s", wheel.highest())
                                  : std::string();
-  setup.reduced = fmt::format("a reduced wheel of {} modes{} with a step of {:.17g} s",
-                              wheel.n_modes(), of_pod, setup.model.dt);
+  const std::string residual =
+      wheel.solid ? fmt::format(" and a residual of {:.9g}", wheel.law_residual) : std::string();
+  setup.reduced = fmt::format("a reduced wheel of {} modes{} with a step of {:.17g} s{}",
+                              wheel.n_modes(), of_pod, setup.model.dt, residual);
   setup.saved_numbers = wheel.solid
                             ? rom::SolidWheelRun::n_numbers(setup.model, *wheel.solid, wheel.model)
                             : rom::WheelRun::n_numbers(setup.model, *wheel.ring, wheel.model);

@@ -20,6 +20,7 @@ using Eigen::Index, Eigen::Matrix3d, Eigen::MatrixXd, Eigen::Vector2d, Eigen::Ve
 
 constexpr int most_sweeps = 300;     ///< without Newton's method
 constexpr int most_newton = 60;      ///< iterations
+constexpr int most_secants = 40;     ///< of a coefficient that is not constant
 constexpr int most_directions = 30;  ///< of sliding, in the solution of one contact
 
 Vector3d vector(Vec3 a) noexcept {
@@ -96,6 +97,7 @@ void ConeLaw::prepare(std::span<const ConeContact> contacts, const WindowComplia
     l.own = block(contacts[i], contacts[i], w);
     l.inverse = l.own.inverse();
     l.force = vector(contacts[i].force);
+    l.friction = contacts[i].friction;
     mean_ += l.own.trace();
   }
   mean_ /= static_cast<double>(n);
@@ -127,10 +129,9 @@ void ConeLaw::push(const ConeContact& c, const WindowCompliance& w,
 }
 
 /// The force of one contact, the others being as they are. @param free moved without it
-Vector3d ConeLaw::solve_one(const ConeContact& c, const Local& l, Vector3d free) const noexcept {
+Vector3d ConeLaw::solve_one(const Local& l, double mu, const Vector3d& free) const noexcept {
   if (free[0] >= 0.0) return Vector3d::Zero();
   const Matrix3d& a = l.own;
-  const double mu = c.friction;
   if (mu == 0.0) return {-free[0] / a(0, 0), 0.0, 0.0};
   const Vector3d stuck = -(l.inverse * free);
   if (stuck[0] > 0.0 && stuck.tail<2>().squaredNorm() <= mu * mu * stuck[0] * stuck[0])
@@ -169,13 +170,52 @@ Vector3d ConeLaw::solve_one(const ConeContact& c, const Local& l, Vector3d free)
   return {normal, mu * normal * e[0], mu * normal * e[1]};
 }
 
+/// μ of a contact at a force and at what it has moved.
+double ConeLaw::friction_of(std::size_t i, const Vector3d& force, const Vector3d& moved) const {
+  return friction_ ? (*friction_)(i, moved.tail<2>().norm(), force[0]) : local_[i].friction;
+}
+
+/// The same where the coefficient follows the slip and the force: μ less that of its own force and
+/// slip is below 0 at 0 and above 0 far out, and regula falsi finds where it vanishes.
+Vector3d ConeLaw::solve_sliding(std::size_t i, const Vector3d& free) {
+  Local& l = local_[i];
+  if (free[0] >= 0.0) return Vector3d::Zero();
+  Vector3d force;
+  const auto beyond = [&](double mu) {
+    force = solve_one(l, mu, free);
+    return mu - friction_of(i, force, free + l.own * force);
+  };
+  double low = l.friction, at_low = beyond(low);
+  const auto settled = [](double missed) { return std::abs(missed) <= 1e-10; };
+  double high = low, at_high = at_low;
+  for (int turn = 0; turn < most_secants && at_high < 0.0; ++turn) {
+    low = high, at_low = at_high;
+    high += -2.0 * at_high;
+    at_high = beyond(high);
+  }
+  if (at_low > 0.0) low = 0.0, at_low = beyond(0.0);
+  double mu = high;
+  double missed = at_high;
+  for (int turn = 0; turn < most_secants && !settled(missed) && high > low; ++turn) {
+    mu = (low * at_high - high * at_low) / (at_high - at_low);
+    missed = beyond(mu);
+    if (missed < 0.0) {
+      low = mu, at_low = missed, at_high *= 0.5;
+    } else {
+      high = mu, at_high = missed, at_low *= 0.5;
+    }
+  }
+  l.friction = mu;
+  return force;
+}
+
 /// Solves the contacts one after the other. @return the largest change of a force
 double ConeLaw::sweep(std::span<const ConeContact> contacts, const WindowCompliance& w) {
   double largest = 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     Local& l = local_[i];
     const Vector3d free = moved_of(contacts[i]) - l.own * l.force;
-    const Vector3d force = solve_one(contacts[i], l, free);
+    const Vector3d force = friction_ ? solve_sliding(i, free) : solve_one(l, l.friction, free);
     const Vector3d change = force - l.force;
     const double square = change.squaredNorm();
     if (square == 0.0) continue;
@@ -264,13 +304,14 @@ void ConeLaw::iterate(std::span<const ConeContact> contacts, const WindowComplia
   }
 }
 
-double ConeLaw::residual(std::span<const ConeContact> contacts) const noexcept {
+double ConeLaw::residual(std::span<const ConeContact> contacts) const {
   double worst = 0.0, largest = 0.0;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ConeContact& c = contacts[i];
     const Vector3d& force = local_[i].force;
-    const double missed =
-        contact::law_residual(plain(force), plain(moved_of(c)), 0.0, c.friction, 1.0 / mean_);
+    const Vector3d moved = moved_of(c);
+    const double missed = contact::law_residual(plain(force), plain(moved), 0.0,
+                                                friction_of(i, force, moved), 1.0 / mean_);
     if (!(missed <= worst)) worst = missed;  // also not a number
     largest = std::max({largest, std::abs(force[0]), -c.free.x / mean_});
   }
@@ -292,7 +333,7 @@ bool ConeLaw::newton(std::span<const ConeContact> contacts, const WindowComplian
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Index at_row = Index{3} * static_cast<Index>(i);
       const Vector3d &r = local_[i].force, u = moved_of(contacts[i]), s = r - rho * u;
-      const double mu = contacts[i].friction;
+      const double mu = local_[i].friction = friction_of(i, r, u);
       auto rows = jacobian.middleRows<3>(at_row);
       const auto lines = a.middleRows<3>(at_row);
       rows.setZero();
@@ -328,7 +369,8 @@ bool ConeLaw::newton(std::span<const ConeContact> contacts, const WindowComplian
 }
 
 ConeLaw::Report ConeLaw::solve(std::span<ConeContact> contacts, const WindowCompliance& w,
-                               Index rows) {
+                               Index rows, const ConeFriction* friction) {
+  friction_ = friction;
   RONDO_DEMAND(rows <= w.size() && rows % 3 == 0, rows, w.size());
   Report report;
   rows_ = rows;
@@ -347,16 +389,19 @@ ConeLaw::Report ConeLaw::solve(std::span<ConeContact> contacts, const WindowComp
     newton(contacts, w);
     report.residual = residual(contacts);
   }
-  for (std::size_t i = 0; i < contacts.size(); ++i) finish(contacts[i], local_[i].force);
+  for (std::size_t i = 0; i < contacts.size(); ++i) finish(i, contacts[i]);
   return report;
 }
 
 /// Tells a contact its force, what it does, and its status.
-void ConeLaw::finish(ConeContact& c, const Vector3d& force) const noexcept {
+void ConeLaw::finish(std::size_t i, ConeContact& c) const {
+  const Vector3d& force = local_[i].force;
+  const Vector3d moved = moved_of(c);
   c.force = plain(force);
-  c.moved = plain(moved_of(c));
+  c.moved = plain(moved);
   c.status = Status::open;
   if (force[0] <= 0.0) return;
+  c.friction = friction_of(i, force, moved);
   const double most = c.friction * force[0];
   c.status = force.tail<2>().norm() < most * (1.0 - 1e-9) ? Status::stick : Status::slip;
 }

@@ -7,6 +7,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -23,7 +24,7 @@ struct ConeContact {
   std::array<Vec3, 3> axes;     ///< normal and tangents, in the axes of the compliance
   std::array<Vec3, 3> lift{};   ///< what unit accelerations of a rim do to it, likewise
   std::array<Vec3, 3> reply{};  ///< what its force does to these: their products
-  double friction = 0.0;        ///< μ
+  double friction = 0.0;        ///< μ; out: that of the force, where it follows a law
   Vec3 force;                   ///< in: where to start                                       [N]
   Vec3 moved;                   ///< gap and distances slid with the forces                   [m]
   contact::Status status = contact::Status::open;
@@ -50,6 +51,9 @@ class WindowCompliance {
   Eigen::MatrixXf rounded_;
 };
 
+/// μ of a contact by its number, the distance slid and the normal force [m], [N].
+using ConeFriction = std::function<double(std::size_t, double, double)>;
+
 class ConeLaw {
  public:
   /// @param tolerance residual of the law, over the largest force
@@ -63,8 +67,9 @@ class ConeLaw {
   /// 0 <= normal force ⊥ gap >= 0; |shear| <= μ normal, opposed to the distance slid. Allocates
   /// nothing but room for more contacts than ever before, and in Newton's method.
   /// @param rows of the window that the contacts are in
+  /// @param friction of contacts whose coefficient is none of ConeContact; or null
   Report solve(std::span<ConeContact> contacts, const WindowCompliance& compliance,
-               Eigen::Index rows);
+               Eigen::Index rows, const ConeFriction* friction = nullptr);
   /// No contacts: nothing moves.
   void clear() noexcept { moved_.clear(); }
   /// (rows) What the forces of solve() do in the window, in the axes of the compliance; without
@@ -75,23 +80,27 @@ class ConeLaw {
   struct Local {
     Eigen::Matrix3d own, inverse;  ///< compliance of the contact with itself, along its axes
     Eigen::Vector3d force;         ///< along its axes
+    double friction;               ///< μ of its force
   };
   void prepare(std::span<const ConeContact> contacts, const WindowCompliance& compliance);
   void multiply(std::span<const ConeContact> contacts, const WindowCompliance& compliance);
   [[nodiscard]] Eigen::Vector3d moved_of(const ConeContact& c) const noexcept;
   double sweep(std::span<const ConeContact> contacts, const WindowCompliance& compliance);
-  [[nodiscard]] Eigen::Vector3d solve_one(const ConeContact& c, const Local& local,
-                                          Eigen::Vector3d free) const noexcept;
+  [[nodiscard]] Eigen::Vector3d solve_one(const Local& local, double friction,
+                                          const Eigen::Vector3d& free) const noexcept;
+  [[nodiscard]] Eigen::Vector3d solve_sliding(std::size_t contact, const Eigen::Vector3d& free);
+  [[nodiscard]] double friction_of(std::size_t contact, const Eigen::Vector3d& force,
+                                   const Eigen::Vector3d& moved) const;
   void push(const ConeContact& c, const WindowCompliance& compliance,
             const Eigen::Vector3d& change) noexcept;
   void pack(Eigen::VectorXd& to) const noexcept;
   void unpack(const Eigen::VectorXd& from) noexcept;
   void mix();
-  void finish(ConeContact& c, const Eigen::Vector3d& force) const noexcept;
+  void finish(std::size_t contact, ConeContact& c) const;
   [[nodiscard]] Eigen::Index n_forces() const noexcept {
     return Eigen::Index{3} * static_cast<Eigen::Index>(local_.size());
   }
-  [[nodiscard]] double residual(std::span<const ConeContact> contacts) const noexcept;
+  [[nodiscard]] double residual(std::span<const ConeContact> contacts) const;
   bool newton(std::span<const ConeContact> contacts, const WindowCompliance& compliance);
   void iterate(std::span<const ConeContact> contacts, const WindowCompliance& compliance,
                double goal, Report& report);
@@ -99,6 +108,7 @@ class ConeLaw {
   static constexpr Eigen::Index depth = 6;  ///< of Anderson's mixing
 
   const double tolerance_;
+  const ConeFriction* friction_ = nullptr;  ///< of the last solve()
   Eigen::Index rows_ = 0;
   std::vector<Local> local_;
   std::vector<double> moved_;  ///< (rows) W r

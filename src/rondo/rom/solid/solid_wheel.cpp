@@ -63,6 +63,12 @@ SolidWheel::SolidWheel(const SolidRing& ring, const WheelModel& model,
   solved_.reserve(n);
   touch_.reserve(n);
   cones_.reserve(n);
+  before_.reserve(n);
+  place_before_.reserve(n);
+  if (!ground.law.friction.is_constant())
+    friction_ = [this](std::size_t candidate, double slip, double force) {
+      return friction_at(candidate, slip, force);
+    };
   contacts_.reserve(n);
   for (const RingHarmonic& h : harmonics_) modes_.emplace_back(h);
 }

@@ -69,6 +69,7 @@ struct SolidWheelReport {
   int candidates = 0;         ///< nodes whose contact was solved
   int iterations = 0;
   bool by_newton = false;
+  bool late = false;  ///< μ is that by the step before: that by the step itself was not found
   double law_residual = 0.0;  ///< over the largest force
   double free = 0.0;          ///< largest distance that a contact would move without forces [m]
   std::span<const SolidWheelContact> contacts;  ///< valid until the next step
@@ -212,13 +213,15 @@ class SolidWheel {
   }
   [[nodiscard]] contact::SpaceTouch touch_of(const Near& near, const SolidMotion& m) const noexcept;
   [[nodiscard]] Vec3 distance(const Near& near, const SolidMotion& motion) const noexcept;
-  [[nodiscard]] double friction_of(const Near& near, const contact::SpaceTouch& touch,
-                                   const SolidMotion& m, Vec3 free) const;
+  [[nodiscard]] double friction_at(std::size_t candidate, double slip, double force) const;
+  [[nodiscard]] double friction_before(std::size_t candidate, const SolidMotion& m,
+                                       Vec3 free) const;
   void add_candidates(const SolidMotion& motion);
   void fill_law(const SolidMotion& motion);
   void place_all();
   [[nodiscard]] bool join(const SolidMotion& motion);
   [[nodiscard]] bool turn_normals(const SolidMotion& motion) const;
+  void solve_law(SolidWheelReport& report);
   void solve(const SolidMotion& motion, SolidWheelReport& report);
   void take_forces(const SolidMotion& motion, SolidWheelReport& report);
   void push_modes(const Near& near);
@@ -284,6 +287,9 @@ class SolidWheel {
   std::vector<std::size_t> solved_;  ///< places of the candidates in near_
   std::vector<contact::SpaceTouch> touch_;  ///< of these, at `place`
   std::vector<ConeContact> cones_;
+  std::vector<Vec3> place_before_;   ///< of these at the start of the step, fixed axes    [m]
+  std::vector<ConeContact> before_;  ///< with μ by the step before
+  ConeFriction friction_;            ///< friction_at(), if friction is not constant
   std::vector<SolidWheelContact> contacts_;
   ConeLaw law_;
 };

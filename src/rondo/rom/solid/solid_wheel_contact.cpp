@@ -129,27 +129,35 @@ Vec3 SolidWheel::distance(const Near& near, const SolidMotion& m) const noexcept
   return (1.0 - tau) * way + free - x - before;
 }
 
+/// μ of a candidate where it was at the start of the step, by a distance that it slides in a step
+/// and by the normal force [m], [N].
+double SolidWheel::friction_at(std::size_t candidate, double slip, double force) const {
+  const Near& near = near_[solved_[candidate]];
+  contact::SlidingState state;
+  state.place = place_before_[candidate];
+  state.slip = slip / settings_.dt;
+  const double area = area_[at(local(near.node))];
+  if (area > 0.0) state.pressure = std::max(0.0, force) / area;
+  return ground_.law.friction.coefficient(state);
+}
+
 /// μ by the slip and the pressure of the step before; a node that was open slides as it would
 /// without a force.
-double SolidWheel::friction_of(const Near& near, const SpaceTouch& touch, const SolidMotion& m,
-                               Vec3 free) const {
-  const contact::Friction& friction = ground_.law.friction;
-  if (friction.is_constant()) return friction.constant();
+double SolidWheel::friction_before(std::size_t candidate, const SolidMotion& m, Vec3 free) const {
+  if (ground_.law.friction.is_constant()) return ground_.law.friction.constant();
+  const Near& near = near_[solved_[candidate]];
   const Memory& was = memory_of(near.node);
-  contact::SlidingState state;
-  state.place = m.center_next() + fixed(near, near.place, m);
-  const bool pressed = was.force != Vec3{};
-  state.slip = (pressed ? was.slip : std::hypot(free.y, free.z)) / settings_.dt;
-  const double area = area_[at(local(near.node))];
-  if (pressed && area > 0.0)
-    state.pressure = std::max(0.0, dot(touch.frame.normal, fixed(near, was.force, m))) / area;
-  return friction.coefficient(state);
+  const Vec3 normal = touch_[candidate].frame.normal;
+  return was.force != Vec3{}
+             ? friction_at(candidate, was.slip, dot(normal, fixed(near, was.force, m)))
+             : friction_at(candidate, std::hypot(free.y, free.z), 0.0);
 }
 
 /// Nodes that are low enough, or were pressed.
 void SolidWheel::add_candidates(const SolidMotion& m) {
   solved_.clear();
   touch_.clear();
+  place_before_.clear();
   for (std::size_t i = 0; i < near_.size(); ++i) {
     Near& near = near_[i];
     const SpaceTouch touch = touch_of(near, m);
@@ -157,6 +165,9 @@ void SolidWheel::add_candidates(const SolidMotion& m) {
     if (!near.candidate) continue;
     solved_.push_back(i);
     touch_.push_back(touch);
+    const Memory& was = memory_of(near.node);
+    place_before_.push_back(was.known > 0 ? m.center() + was.place[0]
+                                          : m.center_next() + fixed(near, near.place, m));
   }
 }
 
@@ -184,7 +195,7 @@ void SolidWheel::fill_law(const SolidMotion& m) {
         c.lift[k] = along(near.moved[k]);
         c.reply[k] = along(near.reply[k]);
       }
-    c.friction = friction_of(near, touch_[i], m, c.free);
+    c.friction = friction_before(i, m, c.free);
     c.force = {dot(c.axes[0], near.force), dot(c.axes[1], near.force), dot(c.axes[2], near.force)};
   }
 }
@@ -239,6 +250,31 @@ bool SolidWheel::turn_normals(const SolidMotion& m) const {
   return false;
 }
 
+/// Forces of the candidates, and the places that they make. Where no coefficients of slip and
+/// pressure of the step itself are found, those of the step before are taken.
+void SolidWheel::solve_law(SolidWheelReport& report) {
+  const Index sectors = static_cast<Index>(solved_.back()) / n_contact_ -
+                        static_cast<Index>(solved_.front()) / n_contact_ + 1;
+  const bool follows = !ground_.law.friction.is_constant();
+  if (follows) before_ = cones_;
+  const Index rows = sectors * ring_.n_contact();
+  ConeLaw::Report solved = law_.solve(cones_, window_, rows, follows ? &friction_ : nullptr);
+  report.late = follows && !(solved.residual <= settings_.law_residual);
+  if (report.late) {
+    cones_ = before_;
+    report.iterations += solved.sweeps;
+    solved = law_.solve(cones_, window_, rows);
+  }
+  report.iterations += solved.sweeps;
+  report.by_newton |= solved.by_newton;
+  report.law_residual = solved.residual;
+  for (std::size_t i = 0; i < solved_.size(); ++i) {
+    const ConeContact& c = cones_[i];
+    near_[solved_[i]].force = c.force.x * c.axes[0] + c.force.y * c.axes[1] + c.force.z * c.axes[2];
+  }
+  place_all();
+}
+
 void SolidWheel::solve(const SolidMotion& m, SolidWheelReport& report) {
   solved_.clear();
   cones_.clear();
@@ -257,22 +293,14 @@ void SolidWheel::solve(const SolidMotion& m, SolidWheelReport& report) {
       return;
     }
     fill_law(m);
-    const Index sectors = static_cast<Index>(solved_.back()) / n_contact_ -
-                          static_cast<Index>(solved_.front()) / n_contact_ + 1;
-    const ConeLaw::Report solved = law_.solve(cones_, window_, sectors * ring_.n_contact());
-    report.iterations += solved.sweeps;
-    report.by_newton |= solved.by_newton;
-    report.law_residual = solved.residual;
+    solve_law(report);
     double free = 0.0;
     for (std::size_t i = 0; i < solved_.size(); ++i) {
       const ConeContact& c = cones_[i];
       const Vec3 moved{std::min(0.0, c.free.x), c.free.y, c.free.z};
       free = std::max(free, dot(moved, moved));
-      near_[solved_[i]].force =
-          c.force.x * c.axes[0] + c.force.y * c.axes[1] + c.force.z * c.axes[2];
     }
     report.free = std::sqrt(free);
-    place_all();
     if (join(m)) {
       turn = -1;  // as many nodes can join as there are
       continue;

@@ -68,6 +68,13 @@ Options run_options(RunOptions& r) {
        .help = "Step of a reduced wheel; chosen by spin and contact if left out",
        .unit = "s",
        .needs = reduced_run},
+      {.words = "--law-residual",
+       .python = "law_residual",
+       .target = &r.law_residual,
+       .help =
+           "Largest residual of the law of contact of a reduced wheel in three dimensions, over "
+           "the largest force; 1e-6 if left out",
+       .needs = reduced_run},
   };
 }
 
