@@ -607,9 +607,11 @@ constexpr CaseKey keys[] = {
     {"ground.obstacle[].angle", "rad", FIELD(ground->obstacles[k].angle),
      with(slanted, "in rad: 30° is 0.5236"), optional,
      "Angle between the edges and the axis across the track of a wheel with a width; > 0: its left "
-     "side meets them first"},
+     "side meets them first. Obstacles of several angles, and those at an angle on ground that is "
+     "not level, need a fillet"},
     {"ground.obstacle[].fillet", "m", FIELD(ground->obstacles[k].fillet), not_negative, optional,
-     "Radius that rounds its convex edges; 0: they are sharp"},
+     "Radius that rounds its convex edges; 0: they are sharp, which needs one angle for all "
+     "obstacles and is not possible on a road under a wheel with a width"},
 
     {"ground.friction.coefficient", "-", FIELD(ground->friction.coefficient), between(0, 100),
      required.if_(has_friction_table, "required").body(never),

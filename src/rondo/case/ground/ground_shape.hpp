@@ -8,8 +8,8 @@
 
 namespace rondo::study {
 
-/// Sets GroundCase::shape and edge_angle. Faults of obstacles are collected in `in`; with any the
-/// shape has none.
+/// Sets GroundCase::shape and edge_angle, or has_own_axes. Faults of obstacles are collected in
+/// `in`; with any the shape has none.
 /// @pre all keys are read, and the road too
 void make_shape(CaseValues& in, Case& c);
 
