@@ -104,6 +104,20 @@ class InAxesOfTheirOwn(ProgramTest):
         for name, column in history(out).items():
             self.assertTrue(np.array_equal(column, whole[name]), name)
 
+    def test_sharp_edges_touch_between_the_nodes_at_each_angle(self):
+        def two(angle, other, **sizes):
+            first, second = (obstacle(at=at, angle=by, height=0.01, length=0.02, fillet=0.0)
+                             for at, by in ((0.28, angle), (0.42, other)))
+            return self.rows(obstacles(first, second), *sizes.get("given", ()))
+        one, nearly = two(0.4, 0.4), two(0.4, 0.4 + 1e-13)
+        self.assertGreater(summary(self.folder / "out")["contact"]["clusters_solved"], 500)
+        self.assertGreater(np.abs(one["force_x"]).max(), 500.0)
+        self.assert_near(one, nearly, 1e-6)
+        there, mirrored = two(0.5236, -0.3), two(-0.5236, 0.3)
+        self.assert_near(there, mirrored, 1e-9, PLANE)
+        for name in LATERAL:
+            self.assertLess(np.abs(there[name] + mirrored[name]).max(), 1e-9 * np.abs(there[name]).max(), name)
+
     def test_what_they_do_not_do_is_refused(self):
         def refused(*given, code=2, command=("check",)):
             done = run(*command, self.case(self.text), *settings(*given))
@@ -111,8 +125,9 @@ class InAxesOfTheirOwn(ProgramTest):
             return " ".join(done.stderr.split())
         (self.folder / "a.crg").write_text(crg(heights(lambda u, v: 0 * u)))
         sharp = obstacles(self.left, obstacle(at=0.42, angle=-0.3, fillet=0.0))
-        self.assertIn("ground.obstacle[1].fillet", refused(sharp))
-        self.assertIn("between which a sharp edge passes", refused(sharp))
+        said = refused(sharp, "ground.profile=[[-1, -0.01], [1, 0.01]]")
+        self.assertIn("ground.obstacle[1].fillet", said)
+        self.assertIn("between which a sharp edge passes", said)
         self.assertIn("ground.obstacle[0].fillet",
                       refused(obstacles(obstacle(fillet=0.0)), *ON_ROAD))
         both = obstacles(self.left, self.right)
@@ -126,11 +141,15 @@ class InAxesOfTheirOwn(ProgramTest):
             self.left, obstacle(at=0.6, angle=-0.3, height=0.03, fillet=0.025))))
         self.assertIn("a start in steady rolling takes obstacles of one angle",
                       refused(both, "initial.state=steady-rolling", "motion.height=0.294"))
-        small = run("check", self.case(self.text), *settings(obstacles(self.left, obstacle(
-            at=0.42, angle=-0.3, fillet=0.004))))
-        self.assertEqual(small.returncode, 0, small.stderr)
-        self.assertIn("ground.obstacle[1].fillet: the radius of 0.004 m is below the 0.0105 m between two contact "
-                      "nodes", " ".join(small.stderr.split()))
+        for ground, said in (((), "m counts as sharp"),
+                             (("ground.profile=[[-1, -0.01], [1, 0.01]]",), "an edge passes between them")):
+            small = run("check", self.case(self.text), *settings(obstacles(self.left, obstacle(
+                at=0.42, angle=-0.3, fillet=0.004)), *ground))
+            self.assertEqual(small.returncode, 0, small.stderr)
+            told = " ".join(small.stderr.split())
+            self.assertIn("ground.obstacle[1].fillet: the radius of 0.004 m is below the 0.0105 m between two contact "
+                          "nodes", told)
+            self.assertIn(said, told)
 
 
 

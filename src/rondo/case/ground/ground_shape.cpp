@@ -95,16 +95,14 @@ void draw_in_profile(CaseValues& in, Case& c, const contact::GroundShape& base) 
   c.ground->edge_angle = angle;
 }
 
-/// Contact in several axes is that of nodes, which a sharp edge passes between.
+/// On ground that is not level contact is that of nodes, which a sharp edge passes between.
 void refuse_sharp_edges(CaseValues& in, const GroundCase& ground) {
   for (std::size_t k = 0; k < ground.obstacles.size(); ++k)
     if (ground.obstacles[k].fillet == 0.0)
       in.refuse(key_of(k, "fillet"),
-                "obstacles of several angles, at an angle on ground that is not level, or on a "
-                "road under a wheel with a width touch its nodes alone, between which a sharp edge "
-                "passes",
-                "> 0, best as long as the contact nodes are apart; or one angle for all obstacles "
-                "and ground.profile = \"flat\"");
+                "an obstacle at an angle on ground that is not level, or on a road under a wheel "
+                "with a width, touches its nodes alone, between which a sharp edge passes",
+                "> 0, best as long as the contact nodes are apart; or ground.profile = \"flat\"");
 }
 
 /// Obstacles in axes of their own stand on ground with one height and one slope at each place.
@@ -141,18 +139,13 @@ void check_own_axes(CaseValues& in, Case& c, const contact::GroundShape& base) {
     check_obstacles(in, obstacles, numbers, {});
     if (all_good(in, *c.ground)) check_whole(in, angle, contact::with_obstacles({}, obstacles));
   }
-  refuse_sharp_edges(in, *c.ground);
+  if (is_on_road_surface(c) || !is_level(c.ground->profile)) refuse_sharp_edges(in, *c.ground);
   if (!is_on_road_surface(c)) refuse_corners_below(in, base);
   c.ground->shape = {};
   c.ground->has_own_axes = true;
 }
 
 }  // namespace
-
-Vec2 at_middle(const Case& c, Vec2 of_shape) {
-  const double angle = c.ground->edge_angle;
-  return angle == 0.0 ? of_shape : Vec2{of_shape.x / std::cos(angle), of_shape.y};
-}
 
 std::string fillet_key(const Case& c, double radius) {
   const auto& obstacles = c.ground->obstacles;

@@ -17,7 +17,4 @@ void make_shape(CaseValues& in, Case& c);
 /// @pre there is ground
 [[nodiscard]] std::string fillet_key(const Case& c, double radius);
 
-/// The place of a point of GroundCase::shape in the middle of the track. @pre there is ground
-[[nodiscard]] Vec2 at_middle(const Case& c, Vec2 of_shape);
-
 }  // namespace rondo::study

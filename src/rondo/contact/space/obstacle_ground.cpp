@@ -42,8 +42,8 @@ void share_line(Vec3 edges, SpaceTouches& touches) noexcept {
 }  // namespace
 
 ObstacleGround::ObstacleGround(std::shared_ptr<const BaseGround> base,
-                               std::span<const Obstacle> obstacles)
-    : base_(std::move(base)) {
+                               std::span<const Obstacle> obstacles, double spacing)
+    : base_(std::move(base)), spacing_(spacing) {
   RONDO_DEMAND(base_ != nullptr && !obstacles.empty(), obstacles.size());
   std::vector<Obstacle> left(obstacles.begin(), obstacles.end());
   while (!left.empty()) {
@@ -55,18 +55,18 @@ ObstacleGround::ObstacleGround(std::shared_ptr<const BaseGround> base,
       same.push_back(o);
     }
     std::erase_if(left, [&](const Obstacle& o) { return o.angle == angle; });
-    sets_.push_back({EdgeAxes(angle), Ground(with_obstacles(GroundShape{}, same))});
+    sets_.push_back({EdgeAxes(angle), Ground(with_obstacles(GroundShape{}, same), spacing)});
     top_ += std::max(0.0, sets_.back().ground.top());
   }
 }
 
-double ObstacleGround::height_of(const Set& set, Vec3 place) noexcept {
+double ObstacleGround::height_of(const EdgeSet& set, Vec3 place) noexcept {
   return set.ground.surface_at(set.axes.from_ground(place).x).height;
 }
 
 double ObstacleGround::level_at(Vec3 place) const noexcept {
   double level = 0.0;
-  for (const Set& set : sets_) level += height_of(set, place);
+  for (const EdgeSet& set : sets_) level += height_of(set, place);
   return level;
 }
 
@@ -78,21 +78,37 @@ double ObstacleGround::top(double from, double to) const noexcept {
   return base_->top(from, to) + top_;
 }
 
+std::span<const EdgeSet> ObstacleGround::edge_sets() const noexcept {
+  if (spacing_ > 0.0) return sets_;
+  return {};
+}
+
+Vec2 ObstacleGround::seen(std::size_t set, Vec3 place, const GroundBelow& below) const noexcept {
+  double level = below.height;
+  for (std::size_t k = 0; k < sets_.size(); ++k)
+    if (k != set) level += height_of(sets_[k], place);
+  return {sets_[set].axes.from_ground(place).x, place.y - level};
+}
+
+Vec2 ObstacleGround::on_set(std::size_t set, Vec3 place) const noexcept {
+  return seen(set, place, base_->below(place.x, place.z));
+}
+
+SetTouches ObstacleGround::touches_on_set(Vec3 place) const noexcept {
+  return find(place, base_->below(place.x, place.z));
+}
+
 /// Sees the point in the axes of each set, on ground as high as the other sets make it there, and
 /// takes the one whose edge is the nearest; any, if there is no edge near.
-ObstacleGround::Found ObstacleGround::find(Vec3 place, const GroundBelow& below) const noexcept {
-  Found best;
-  for (const Set& set : sets_) {
-    double others = 0.0;
-    for (const Set& other : sets_)
-      if (&other != &set) others += height_of(other, place);
-    const Touches touches =
-        set.ground.touches({set.axes.from_ground(place).x, place.y - below.height - others});
+SetTouches ObstacleGround::find(Vec3 place, const GroundBelow& below) const noexcept {
+  SetTouches best;
+  for (std::size_t k = 0; k < sets_.size(); ++k) {
+    const Touches touches = sets_[k].ground.touches(seen(k, place, below));
     if (touches.count == 0) return {};
     const bool is_nearer =
         is_at_edge(touches) &&
         (!is_at_edge(best.touches) || nearest_gap(touches) > nearest_gap(best.touches));
-    if (!best.set || is_nearer) best = {&set, touches};
+    if (k == 0 || is_nearer) best = {k, touches};
   }
   return best;
 }
@@ -105,7 +121,7 @@ SpaceTouches ObstacleGround::on_base(Vec3 place, const GroundBelow& below,
 
 /// The gradient of the gap in the axes of the set, with (t1, n, t2) mapped to them: the height
 /// above the base falls where the base rises.
-SpaceTouch ObstacleGround::on_facet(Vec3 place, const GroundBelow& below, const Set& set,
+SpaceTouch ObstacleGround::on_facet(Vec3 place, const GroundBelow& below, const EdgeSet& set,
                                     const Touch& touch) const noexcept {
   if (is_level(touch)) {
     const SpaceTouches base = on_base(place, below, touch.gap);
@@ -124,12 +140,12 @@ SpaceTouches ObstacleGround::touches(Vec3 place) const noexcept {
   // The comparison is also false where there is no ground.
   if (!(place.y - below.height <= top_)) return {};
   const auto [set, found] = find(place, below);
-  if (!set) return {};
+  if (found.count == 0) return {};
   if (!is_at_edge(found)) return on_base(place, below, found.at[0].gap);
   SpaceTouches out{.count = found.count, .at = {}};
   for (std::size_t i = 0; i < static_cast<std::size_t>(found.count); ++i)
-    out.at[i] = on_facet(place, below, *set, found.at[i]);
-  if (out.count == 2) share_line(set->axes.to_ground({0.0, 0.0, 1.0}), out);
+    out.at[i] = on_facet(place, below, sets_[set], found.at[i]);
+  if (out.count == 2) share_line(sets_[set].axes.to_ground({0.0, 0.0, 1.0}), out);
   return out;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  Obstacles with round edges, each at an angle of its own, on a road, on a profile or on
-/// level ground, under a wheel in three dimensions (docs/roads.md, section 5). Obstacles of one
+/// @file  Obstacles, each at an angle of its own, on a road, on a profile or on level ground, under
+/// a wheel in three dimensions (docs/roads.md, section 5). Obstacles of one
 /// angle on level ground need none of this: they are a profile in the axes of their edges.
 #pragma once
 #include <memory>
@@ -21,33 +21,32 @@ class ObstacleGround final : public SpaceGround {
  public:
   /// @pre obstacles of one angle have no obstacle_faults() and a shape; others do not overlap where
   /// points come
-  ObstacleGround(std::shared_ptr<const BaseGround> base, std::span<const Obstacle> obstacles);
+  /// @param spacing of the nodes, if corners and small arcs are to touch a body between these; 0:
+  /// they do not                                                                            [m]
+  /// @pre spacing = 0 or the base is level
+  ObstacleGround(std::shared_ptr<const BaseGround> base, std::span<const Obstacle> obstacles,
+                 double spacing = 0.0);
 
   [[nodiscard]] SpaceTouches touches(Vec3 place) const noexcept override;
   [[nodiscard]] double clearance(Vec3 place) const noexcept override;
   [[nodiscard]] double top(double from, double to) const noexcept override;
+  [[nodiscard]] std::span<const EdgeSet> edge_sets() const noexcept override;
+  [[nodiscard]] Vec2 on_set(std::size_t set, Vec3 place) const noexcept override;
+  [[nodiscard]] SetTouches touches_on_set(Vec3 place) const noexcept override;
 
  private:
-  /// The obstacles of one angle, on level ground.
-  struct Set {
-    EdgeAxes axes;
-    Ground ground;
-  };
-  /// What a point touches in the axes of a set.
-  struct Found {
-    const Set* set = nullptr;
-    Touches touches;
-  };
-  [[nodiscard]] static double height_of(const Set& set, Vec3 place) noexcept;
+  [[nodiscard]] static double height_of(const EdgeSet& set, Vec3 place) noexcept;
   [[nodiscard]] double level_at(Vec3 place) const noexcept;
-  [[nodiscard]] Found find(Vec3 place, const GroundBelow& below) const noexcept;
+  [[nodiscard]] Vec2 seen(std::size_t set, Vec3 place, const GroundBelow& below) const noexcept;
+  [[nodiscard]] SetTouches find(Vec3 place, const GroundBelow& below) const noexcept;
   [[nodiscard]] SpaceTouches on_base(Vec3 place, const GroundBelow& below,
                                      double gap) const noexcept;
-  [[nodiscard]] SpaceTouch on_facet(Vec3 place, const GroundBelow& below, const Set& set,
+  [[nodiscard]] SpaceTouch on_facet(Vec3 place, const GroundBelow& below, const EdgeSet& set,
                                     const Touch& touch) const noexcept;
 
   std::shared_ptr<const BaseGround> base_;
-  std::vector<Set> sets_;
+  std::vector<EdgeSet> sets_;
+  double spacing_ = 0.0;
   double top_ = 0.0;  ///< no place is higher above the base                                  [m]
 };
 

@@ -13,6 +13,43 @@ namespace rondo::dynamics {
   return contact.axes.from_ground(place).plane();
 }
 
+/// How many profiles the ground has whose corners may touch a body between its nodes: that of
+/// ContactModel::ground, or those of the space ground.
+[[nodiscard]] inline std::size_t profile_count(const ContactModel& contact) noexcept {
+  return contact.space && !contact.space->edge_sets().empty() ? contact.space->edge_sets().size()
+                                                              : 1;
+}
+/// @pre set < profile_count()
+[[nodiscard]] inline const contact::Ground& profile_of(const ContactModel& contact,
+                                                       std::size_t set) noexcept {
+  return contact.space && !contact.space->edge_sets().empty()
+             ? contact.space->edge_sets()[set].ground
+             : contact.ground;
+}
+[[nodiscard]] inline const contact::EdgeAxes& axes_of(const ContactModel& contact,
+                                                      std::size_t set) noexcept {
+  return contact.space && !contact.space->edge_sets().empty() ? contact.space->edge_sets()[set].axes
+                                                              : contact.axes;
+}
+/// A place as one of these profiles sees it, along its edges.
+[[nodiscard]] inline Vec2 on_profile(const ContactModel& contact, std::size_t set,
+                                     Vec3 place) noexcept {
+  return contact.space && !contact.space->edge_sets().empty() ? contact.space->on_set(set, place)
+                                                              : on_profile(contact, place);
+}
+/// Where a point of one of these profiles is in the middle of the track.
+[[nodiscard]] inline Vec2 at_middle(const ContactModel& contact, std::size_t set,
+                                    Vec2 point) noexcept {
+  return {point.x / axes_of(contact, set).to_ground({1.0, 0.0, 0.0}).x, point.y};
+}
+/// What a point touches, in the axes of one of these profiles.
+[[nodiscard]] inline contact::SetTouches touches_on_profile(const ContactModel& contact,
+                                                            Vec3 place) noexcept {
+  if (contact.space && !contact.space->edge_sets().empty())
+    return contact.space->touches_on_set(place);
+  return {0, contact.ground.touches(on_profile(contact, place))};
+}
+
 /// What a point touches.
 [[nodiscard]] inline contact::SpaceTouches touches_in_space(const ContactModel& contact,
                                                             Vec3 place) noexcept {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -53,12 +54,20 @@ void refuse_overlaps_across(const Case& c, const Stretch& across) {
             "obstacles one behind the other all across the track of the wheel");
 }
 
+/// On level ground edges touch the wheel between its nodes, as those of a profile do.
+bool stand_on_level_ground(const Case& c) {
+  const auto& p = c.ground->profile;
+  return !is_on_road_surface(c) &&
+         std::ranges::all_of(p, [&](Vec2 point) { return point.y == p.front().y; });
+}
+
 void warn_of_small_fillets(const Case& c, Setup& s) {
   const double spacing = s.model.contact->ground.spacing();
   const auto warn = [&](const std::string& key, double fillet) {
     s.warnings.push_back(fmt::format(
         "{}: the radius of {:.3g} m is below the {:.3g} m between two contact nodes, which alone "
-        "touch obstacles of several angles or on a road: an edge passes between them, and forces "
+        "touch obstacles on a road, or at an angle on ground that is not level: an edge passes "
+        "between them, and forces "
         "depend on where they happen to be, which runs with motion.start_x moved by parts of the "
         "spacing show; give a fillet of at least {:.3g} m, or a finer mesh",
         key, fillet, spacing, spacing));
@@ -76,8 +85,10 @@ std::shared_ptr<const contact::SpaceGround> obstacles_on(
   RONDO_DEMAND(c.ground && s.model.contact && s.model.solid, c.ground.has_value());
   if (!has_obstacles_of_own_axes(c)) return base;
   refuse_overlaps_across(c, reach_across(c, s.mesh));
-  warn_of_small_fillets(c, s);
-  return std::make_shared<const contact::ObstacleGround>(std::move(base), c.ground->obstacles);
+  const bool is_level = stand_on_level_ground(c);
+  if (!is_level) warn_of_small_fillets(c, s);
+  return std::make_shared<const contact::ObstacleGround>(
+      std::move(base), c.ground->obstacles, is_level ? s.model.contact->ground.spacing() : 0.0);
 }
 
 void set_wheel_obstacles(const Case& c, Setup& s) {

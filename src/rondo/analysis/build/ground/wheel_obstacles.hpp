@@ -9,8 +9,8 @@
 
 namespace rondo::study {
 
-/// The ground with the obstacles of the case on it; the base itself if there are none. Adds a
-/// warning of fillets that are smaller than the nodes are apart.
+/// The ground with the obstacles of the case on it; the base itself if there are none. On ground
+/// that is not level, adds a warning of fillets that are smaller than the nodes are apart.
 /// @pre motion and contact of the model are set
 /// @throws InputError: obstacles of different angles overlap where the wheel comes
 [[nodiscard]] std::shared_ptr<const contact::SpaceGround> obstacles_on(
