@@ -104,6 +104,18 @@ class InAxesOfTheirOwn(ProgramTest):
         for name, column in history(out).items():
             self.assertTrue(np.array_equal(column, whole[name]), name)
 
+    def test_obstacles_of_other_angles_far_away_change_nothing(self):
+        """But the level, if one is a step that the wheel has behind it."""
+        far, step = obstacle(at=5.0, angle=-0.3), obstacle("step", -0.7, 0.011, angle=-0.3)
+        higher = "motion.height=[[0, 0.311], [0.02, 0.305]]"
+        for fillet in 0.0, 0.011:
+            one = obstacle(at=0.28, angle=0.4, fillet=fillet)
+            alone = self.rows(obstacles(one))
+            self.assertGreater(np.abs(alone["force_lateral"]).max(), 500.0)
+            for both in (obstacles(far, one), obstacles(one, far)):
+                self.assert_near(alone, self.rows(both), 1e-8)
+            self.assert_near(alone, self.rows(obstacles(step, one), higher), 1e-8, ("force_x", "force_y") + LATERAL[:2])
+
     def test_sharp_edges_touch_between_the_nodes_at_each_angle(self):
         def two(angle, other, **sizes):
             first, second = (obstacle(at=at, angle=by, height=0.01, length=0.02, fillet=0.0)
