@@ -4,7 +4,7 @@ import unittest
 
 import numpy as np
 
-from program import ROOT, ProgramTest, history, run, settings, summary
+from program import ROOT, ProgramTest, contact, history, run, settings, summary
 from test_wheel_road import crg, heights
 
 LATERAL = ("force_lateral", "moment_aligning", "moment_overturning")
@@ -110,10 +110,12 @@ class InAxesOfTheirOwn(ProgramTest):
         higher = "motion.height=[[0, 0.311], [0.02, 0.305]]"
         for fillet in 0.0, 0.011:
             one = obstacle(at=0.28, angle=0.4, fillet=fillet)
-            alone = self.rows(obstacles(one))
+            alone, nodes = self.rows(obstacles(one)), contact(self.folder / "out")
             self.assertGreater(np.abs(alone["force_lateral"]).max(), 500.0)
             for both in (obstacles(far, one), obstacles(one, far)):
                 self.assert_near(alone, self.rows(both), 1e-8)
+                pressure = contact(self.folder / "out")["pressure_pa"]
+                self.assertLess(np.abs(pressure - nodes["pressure_pa"]).max(), 1e-6 * pressure.max())
             self.assert_near(alone, self.rows(obstacles(step, one), higher), 1e-8, ("force_x", "force_y") + LATERAL[:2])
 
     def test_sharp_edges_touch_between_the_nodes_at_each_angle(self):
