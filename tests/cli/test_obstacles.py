@@ -194,6 +194,9 @@ class Told(ProgramTest):
         far = run("check", self.case(SMALL), *settings(CLEAT.replace("0.05", "300")))
         self.assertIn("ground.obstacle[0]: the body does not come to the cleat: it comes to x = -0.3 "
                       "to 0.5 m", far.stderr)
+        for at, warned in ((-1.0, False), (1.0, True)):  # the body rolls on the level behind a step
+            step = f"ground.obstacle=[{{kind = 'step', at = {at}, height = -0.001}}]"
+            self.assertEqual("does not come" in run("check", self.case(SMALL), *settings(step)).stderr, warned)
 
     def test_patches_that_are_missed_or_left_sideways_are_told(self):
         ice = "ground.patch=[{from = 30, to = 50, factor = 0.2}]"
