@@ -135,6 +135,56 @@ class Block(RunTest):
         self.assertNotEqual((self.out / "history.csv").read_bytes(), number)
 
 
+class OnTwoFeet(RunTest):
+    """One stiff element, whose two feet carry what the moment of friction leaves them. The jumps of friction set it
+    vibrating, which takes a share of its energy that decreases with 1/E."""
+    height, speed = 0.06, 2.0  # m, m/s
+    text = BLOCK.replace("block.msh", "two-feet.msh").replace("1.0e8", "4.0e9").replace("2.0e-5", "1.0e-6").replace(
+        "1e-5", "2e-6").replace("end = 0.8", "end = 0.65")
+
+    def setUp(self):
+        super().setUp()
+        x, y = 0.5 * LENGTH, self.height
+        (self.folder / "two-feet.msh").write_text(
+            '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n1 1 "foot"\n2 2 "block"\n$EndPhysicalNames\n'
+            f"$Nodes\n4\n1 {-x} 0 0\n2 {x} 0 0\n3 {x} {y} 0\n4 {-x} {y} 0\n$EndNodes\n"
+            "$Elements\n2\n1 1 2 1 1 1 2\n2 3 2 2 1 1 2 3 4\n$EndElements\n")
+
+    def deceleration(self, front, rear, height):
+        """Of a rigid block whose feet have these coefficients: N_f + N_r = m g, and about its center
+        (N_f - N_r) L/2 = (μ_f N_f + μ_r N_r) h/2."""
+        arms = [LENGTH - front * height, -LENGTH - rear * height]
+        loads = np.linalg.solve([[1.0, 1.0], arms], [GRAVITY, 0.0])
+        self.assertGreater(min(loads), 0.0)
+        return np.dot([front, rear], loads)
+
+    def way(self, begin, end, factor, height):
+        """v dv = -a dx over the stretches on which the feet stay on one friction each [m]."""
+        def friction(foot):
+            return 0.4 * (factor if begin < foot < end else 1.0)
+        x, energy = 0.0, 0.5 * self.speed**2
+        for edge in (begin - 0.5 * LENGTH, begin + 0.5 * LENGTH, end - 0.5 * LENGTH, end + 0.5 * LENGTH):
+            middle = 0.5 * (x + edge)
+            slows = self.deceleration(friction(middle + 0.5 * LENGTH), friction(middle - 0.5 * LENGTH), height)
+            energy -= slows * (edge - x)
+            self.assertGreater(energy, 0.0)
+            x = edge
+        return x + energy / self.deceleration(0.4, 0.4, height)
+
+    def test_it_stops_behind_a_patch_where_quadrature_says(self):
+        for begin, end, factor in (0.15, 0.3, 0.5), (0.15, 0.32, 1.5):
+            with self.subTest(factor):
+                exact = self.way(begin, end, factor, self.height)
+                self.run_set(f"ground.patch=[{{from = {begin}, to = {end}, factor = {factor}}}]")
+                self.assertLess(summary(self.out)["energy_residual_relative"], 1e-11)
+                h = history(self.out)
+                self.assertEqual(h["sticking_nodes"][-1], 2)
+                self.assertLess(abs(h["center_x_m"][-1] / exact - 1.0), 1e-6)
+                # What this would see: a ten-thousandth of the patch, and loads without the moment of friction.
+                self.assertGreater(abs(self.way(begin, end, 1.0001 * factor, self.height) / exact - 1.0), 1e-5)
+                self.assertGreater(abs(self.way(begin, end, factor, 0.0) / exact - 1.0), 5e-4)
+
+
 class Wheels(RunTest):
     def history_of(self, text, *given):
         self.run_set(*given, text=text)

@@ -92,6 +92,24 @@ class SteadyFriction(RunTest):
             for name in ("force_x", "force_y"):
                 self.assertAlmostEqual(np.mean(rows[name][late]), steady[name], delta=0.005 * steady["force_y"])
 
+    def test_is_what_a_wheel_with_a_width_settles_in(self):
+        """Within half a percent of the load, on 180 sectors; constant friction is 1.5 and 13 percent off."""
+        cornering, steady_wheel = ((ROOT / "cases" / f"wheel3d-{name}.toml").read_text() for name in
+                                   ("cornering", "steady"))
+        friction = GENTLE.replace("0.6", "0.3").replace("1e6", "2e5")
+        for slip, constant_off in ((("motion.slip_angle=0.017453292519943295",), 0.015),
+                                   (("motion.slip_angle=0.0349", "motion.speed=9.7"), 0.05)):
+            given = "disk.mesh.circumferential=180", *slip
+            steady, _ = self.of(friction, *given, text=steady_wheel)
+            constant, _ = self.of(*given, text=steady_wheel)
+            self.run_set(friction, *given, "output.snapshots=0", text=cornering)
+            rows = history(self.out)
+            late = rows["time_s"] > 0.06
+            for name in ("force_x", "force_y", "force_lateral"):
+                self.assertAlmostEqual(np.mean(rows[name][late]), steady[name], delta=0.005 * steady["force_y"])
+            off = np.abs([constant[name] - steady[name] for name in ("force_x", "force_lateral")])
+            self.assertGreater(off.max(), constant_off * steady["force_y"])
+
     def test_is_what_a_run_in_time_may_start_in(self):
         steady, _ = self.of(GENTLE, "analysis.samples_per_sector=4", text=FINE)
         told = run("check", self.case(IN_TIME), *settings(GENTLE, "motion.height=0.29",

@@ -213,6 +213,12 @@ def test_no_contact_no_arrows(paper: rondo.Paper) -> None:
 def test_no_ground() -> None:
     assert Ground.from_case({"disk": {}}) is None
     assert Ground.from_case({"ground": {"road": "a.crg"}}) is None  # a surface, not a line
+    cleat = {"kind": "cleat", "at": 0.3, "height": 0.01, "length": 0.02, "angle": 0.3}
+    slope = [[-1.0, 0.0], [1.0, 0.1]]
+    assert Ground.from_case({"ground": {"obstacle": [cleat, {**cleat, "at": 0.5}]}}).angle == 0.3
+    assert Ground.from_case({"ground": {"obstacle": [cleat, {**cleat, "at": 0.5, "angle": -0.3}]}}) is None
+    assert Ground.from_case({"ground": {"obstacle": [cleat], "profile": slope}}) is None
+    assert Ground.from_case({"ground": {"obstacle": [{**cleat, "angle": 0.0}], "profile": slope}}).angle == 0.0
 
 
 def test_flat_ground_reaches_the_window() -> None:

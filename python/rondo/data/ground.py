@@ -31,15 +31,18 @@ class Ground:
     @classmethod
     def from_case(cls, case: Mapping[str, Any]) -> Ground | None:
         """The ground of a case as case.toml holds it; None where there is none, and under a wheel with a
-        width on a road, whose surface is no line."""
+        width where it is a surface and no line: on a road, with obstacles of several angles, and with
+        obstacles at an angle on ground that is not level."""
         if "ground" not in case or "road" in case["ground"]:
             return None
         profile = case["ground"].get("profile", "flat")
         corners = np.array(FLAT if profile == "flat" else profile, dtype=float)
         radii = np.full(len(corners), float(case["ground"].get("fillet", 0.0)))
         obstacles = case["ground"].get("obstacle", [])
-        angle = float(obstacles[0].get("angle", 0.0)) if obstacles else 0.0
-        return cls(*with_obstacles(corners, radii, obstacles), angle)
+        angles = {float(one.get("angle", 0.0)) for one in obstacles} or {0.0}
+        if len(angles) > 1 or (angles != {0.0} and np.ptp(corners[:, 1]) > 0.0):
+            return None
+        return cls(*with_obstacles(corners, radii, obstacles), angles.pop())
 
     def points(self, window: tuple[float, float]) -> NDArray[np.float64]:
         """(m, 2) m: the ground in the middle of the track with its corners rounded, reaching at

@@ -129,6 +129,9 @@ struct GroundCase {
   // Made by the reader from the profile and the obstacles:
   contact::GroundShape shape;  ///< normal to the edges of the obstacles
   double edge_angle = 0.0;     ///< of these, across the track of a wheel with a width         [rad]
+  /// The obstacles are not in `shape`, which is flat then: each is in axes of its own, on a road or
+  /// a profile (contact/space/obstacle_ground.hpp).
+  bool has_own_axes = false;
   contact::FrictionTable friction;
   double restitution = 0.0;  ///< e in [0, 1]
   contact::Impact impact = contact::Impact::moreau;
@@ -312,6 +315,11 @@ inline bool has_friction_table(const Case& c) {
 /// Whether the ground is the surface of a road, under a wheel in three dimensions.
 inline bool is_on_road_surface(const Case& c) {
   return c.ground && c.ground->road.read && is_solid(c);
+}
+
+/// Whether obstacles stand each at an angle of its own, or on a road, under such a wheel.
+inline bool has_obstacles_of_own_axes(const Case& c) {
+  return c.ground && c.ground->has_own_axes;
 }
 
 /// The Gmsh file that the body comes from; null: it is generated.

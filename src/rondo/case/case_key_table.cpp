@@ -607,9 +607,11 @@ constexpr CaseKey keys[] = {
     {"ground.obstacle[].angle", "rad", FIELD(ground->obstacles[k].angle),
      with(slanted, "in rad: 30° is 0.5236"), optional,
      "Angle between the edges and the axis across the track of a wheel with a width; > 0: its left "
-     "side meets them first"},
+     "side meets them first. At an angle on ground that is not level an obstacle needs a fillet"},
     {"ground.obstacle[].fillet", "m", FIELD(ground->obstacles[k].fillet), not_negative, optional,
-     "Radius that rounds its convex edges; 0: they are sharp"},
+     "Radius that rounds its convex edges; 0: they are sharp. On a road under a wheel with a width "
+     "all obstacles need one, and so do those at an angle or of several angles on ground that is "
+     "not level"},
 
     {"ground.friction.coefficient", "-", FIELD(ground->friction.coefficient), between(0, 100),
      required.if_(has_friction_table, "required").body(never),

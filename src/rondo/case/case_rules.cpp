@@ -298,7 +298,8 @@ void check_flat_ground(CaseValues& in, const Case& c, std::string_view who) {
     return in.fault("ground.road", fmt::format("{} needs flat ground, and a road is not", who),
                     "ground.profile = \"flat\" in its place");
   const std::vector<Vec2>& profile = c.ground->shape.profile;
-  if (!std::all_of(profile.begin(), profile.end(), [&](Vec2 p) { return p.y == profile[0].y; }))
+  if (has_obstacles_of_own_axes(c) ||
+      !std::all_of(profile.begin(), profile.end(), [&](Vec2 p) { return p.y == profile[0].y; }))
     in.fault(ground_key(c), fmt::format("{} needs flat ground: all points at one height", who),
              c.ground->obstacles.empty() ? "ground.profile = \"flat\"" : "no [[ground.obstacle]]");
 }

@@ -154,7 +154,7 @@ void check_start_motion(CaseValues& in, const Case& c) {
 }  // namespace
 
 std::optional<double> flat_ground_below(const Case& c, double radius) {
-  if (is_on_road_surface(c)) return std::nullopt;
+  if (is_on_road_surface(c) || has_obstacles_of_own_axes(c)) return std::nullopt;
   const contact::GroundShape& shape = c.ground->shape;
   const double angle = c.ground->edge_angle;  // the half width reaches beside the center then
   const double half = c.wheel.width ? 0.5 * *c.wheel.width : radius;
@@ -177,6 +177,11 @@ void check_steady_start(CaseValues& in, const Case& c) {
   check_start_motion(in, c);
   if (!in.has_table("ground"))
     in.fault(start, "there is no ground to roll on", "\"stationary\"; or a [ground]");
+  else if (has_obstacles_of_own_axes(c))
+    in.fault(ground_key(c),
+             "a start in steady rolling takes obstacles of one angle, on level ground",
+             "one angle for all obstacles and ground.profile = \"flat\"; or initial.state = "
+             "\"stationary\"");
   else if (in.good(
                {"ground", "ground.profile", "ground.road", "ground.fillet", "disk.outer_radius"}) &&
            c.ground && contact::shape_faults(c.ground->shape).empty() && !c.mesh &&

@@ -335,6 +335,19 @@ double Ground::distance(Vec2 x) const noexcept {
   return p.gap > 0.0 ? p.distance : -p.distance;
 }
 
+SurfaceLine Ground::surface_at(double x) const noexcept {
+  const auto after = std::ranges::upper_bound(begins_, x);
+  const Facet& f =
+      facets_[static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - begins_.begin() - 1, 0))];
+  if (f.radius > 0.0) {
+    const double along = x - f.center.x;
+    const double up = std::sqrt(std::max(0.0, f.radius * f.radius - along * along));
+    return {f.center.y + up, -along / up};
+  }
+  const double slope = f.tangent.y / f.tangent.x;
+  return {f.begin.y + (f.tangent.y == 0.0 ? 0.0 : slope * (x - f.begin.x)), slope};
+}
+
 double Ground::abscissa(Vec2 x) const noexcept {
   Projection p;
   return facets_[nearest(x, p)].start_length + p.along;

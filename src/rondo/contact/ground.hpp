@@ -64,6 +64,12 @@ struct Touches {
   std::array<Touch, 2> at;
 };
 
+/// The surface straight above or below a place.
+struct SurfaceLine {
+  double height = 0.0;  ///< [m]
+  double slope = 0.0;   ///< infinite at the foot of a fillet of a wall                      [-]
+};
+
 class Ground {
  public:
   /// @param spacing of the contact nodes that come to this ground; arcs of smaller radius are
@@ -82,6 +88,8 @@ class Ground {
   [[nodiscard]] bool has_concave_corners() const noexcept;
   /// Signed distance to the surface, > 0 outside                                           [m]
   [[nodiscard]] double distance(Vec2 x) const noexcept;
+  /// The surface at x; at a wall that behind it.
+  [[nodiscard]] SurfaceLine surface_at(double x) const noexcept;
   /// Length along the surface, from the first point of the profile, of the point nearest to x [m]
   [[nodiscard]] double abscissa(Vec2 x) const noexcept;
   /// Convex bends that touch a body between its nodes, left to right: sharp corners, and arcs whose

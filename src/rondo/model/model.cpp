@@ -6,6 +6,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/fem/stiffness_product.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::dynamics {
 
@@ -70,7 +71,10 @@ std::vector<int> places_among(std::span<const int> nodes, std::size_t n) {
 }
 
 bool has_sharp_corners(const Model& model) noexcept {
-  return model.contact && !model.contact->ground.corners().empty();
+  if (!model.contact) return false;
+  for (std::size_t set = 0; set < profile_count(*model.contact); ++set)
+    if (!profile_of(*model.contact, set).corners().empty()) return true;
+  return false;
 }
 
 void apply_stiffness(const Model& model, std::span<const Vec2> u, std::span<Vec2> out) {

@@ -39,7 +39,7 @@ std::vector<CornerRow> rows_at(const Model& m, CornerFinder& finder, double heig
   for (const int node : m.contact->nodes) {
     const auto k = static_cast<std::size_t>(node);
     const Vec3 x = ground.from_wheel({m.reference[k].x, m.reference[k].y, m.solid->axial[k]});
-    finder.places()[k] = x.plane() + Vec2{0.0, height};
+    finder.set_place(static_cast<int>(k), x + Vec3{0.0, height, 0.0});
   }
   std::vector<CornerFinder::Near> near;
   finder.find_near(finder.deepest(), near);

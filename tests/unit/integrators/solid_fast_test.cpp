@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rondo/contact/friction_table.hpp"
+#include "rondo/contact/space/obstacle_ground.hpp"
 #include "rondo/contact/space/road_ground.hpp"
 #include "rondo/fem/finite/sector_energy.hpp"
 #include "rondo/integrators/fused/dispatch.hpp"
@@ -46,8 +47,9 @@ struct Case {
   fem::RubberLaw law = fem::RubberLaw::neo_hooke;
   bool rest = false;      ///< the state at rest has forces of its own
   bool obstacle = false;  ///< a ramp with rounded edges, and a concave corner
-  bool sharp = false;     ///< a cleat with sharp edges, shorter than an element
+  bool sharp = false;     ///< a cleat, or angles, with sharp edges, shorter than an element
   bool road = false;      ///< waves and noise that are not the same across
+  bool angles = false;    ///< obstacles of several angles, on that or on level ground
   bool rubs = false;      ///< friction over slip speed, pressure and place
   double turned = 0.0;    ///< the edges of the ground, out of t2                     [rad]
 };
@@ -192,6 +194,22 @@ contact::Friction friction_of_case(const Case& c) {
        .patches = {{-1.0, 0.01, contact::Side::left, 0.5}, {0.0, 9.0, contact::Side::right, 1.4}}});
 }
 
+/// @param spacing of the nodes; 0: nodes alone touch the ground
+std::shared_ptr<const contact::SpaceGround> with_angles(const Case& c, double spacing) {
+  using contact::ObstacleKind;
+  const double fillet = c.sharp ? 0.0 : 0.003;
+  const std::vector<contact::Obstacle> obstacles{
+      {ObstacleKind::step, -0.3, -0.0005, 0.0, -0.2, 0.1 * fillet},
+      {ObstacleKind::cleat, -0.02, 0.004, 0.03, 0.5, fillet},
+      {ObstacleKind::pothole, 0.08, 0.004, 0.03, -0.4, fillet}};
+  std::shared_ptr<const contact::BaseGround> base =
+      std::make_shared<contact::ProfileGround>(contact::Ground(contact::GroundShape{}));
+  if (c.road)
+    base = std::make_shared<contact::RoadGround>(road::Surface(some_road()),
+                                                 contact::RoadPlacing{-0.1, 0.01, 100.002});
+  return std::make_shared<contact::ObstacleGround>(base, obstacles, spacing);
+}
+
 Model model_of(const Case& c) {
   const mesh::Mesh mesh = mesh::make_wheel(c.wheel);
   test::Cornering rolling;
@@ -205,7 +223,7 @@ Model model_of(const Case& c) {
     ground.profile = {{-1, 0}, {0.02, 0}, {0.05, 0.006}, {0.1, 0.006}, {0.13, 0}, {9, 0}};
     ground.fillet = 0.002;
   }
-  if (c.sharp)
+  if (c.sharp && !c.angles)
     ground.profile = {{-1, 0}, {0.035, 0}, {0.036, 0.003}, {0.05, 0.003}, {0.05, 0}, {9, 0}};
   if (c.sharp && !c.unsteady)  // its height is .29 m
     for (Vec2& point : ground.profile) point.y -= 0.0098;
@@ -221,6 +239,7 @@ Model model_of(const Case& c) {
     m.contact->space = std::make_shared<contact::RoadGround>(
         road::Surface(some_road()),
         contact::RoadPlacing{-0.1, 0.01, c.unsteady ? 100.002 : 100.0118});
+  if (c.angles) m.contact->space = with_angles(c, spacing);
   const double end = 106.0 * m.dt;
   if (c.unsteady) {
     m.motion.angular_velocity = Table({{0.0, 32.0}, {end, 36.0}});
@@ -448,6 +467,11 @@ std::vector<Case> cases() {
   all.push_back({.name = "road_rim", .pressure = 2e4, .rim = true, .rest = true, .road = true});
   all.push_back({.name = "road_window", .rim = true, .cords = true, .window = 0.4, .road = true});
   all.push_back({.name = "road_wide", .wheel = test::box_wheel(3, 12, 330), .road = true});
+  all.push_back({.name = "angles", .restitution = 0.3, .angles = true});
+  all.push_back({.name = "road_angles", .friction = 0.8, .road = true, .angles = true});
+  all.push_back({.name = "road_angles_rim", .rim = true, .road = true, .angles = true});
+  all.push_back({.name = "sharp_angles", .sharp = true, .angles = true});
+  all.push_back({.name = "sharp_angles_rim", .rim = true, .sharp = true, .angles = true});
   all.push_back({.name = "no_friction", .friction = 0.0});
   all.push_back({.name = "rubbing", .friction = 0.5, .rubs = true});
   all.push_back({.name = "rubbing_rim",

@@ -16,12 +16,12 @@ class BetweenNodes {
   /// @param frame null: not known
   [[nodiscard]] bool may_be_deep(const dynamics::FrameStep* frame, long long steps) const noexcept;
 
-  /// Largest depth of a bend behind an edge between candidates, in the plane of the profile, no
+  /// Largest depth of a bend behind an edge between candidates, in the plane of a profile, no
   /// deeper than the edge is long [m]
   [[nodiscard]] double depth(const dynamics::State& state) const noexcept;
 
  private:
-  [[nodiscard]] Vec2 place(const dynamics::State& state, int node) const noexcept;
+  [[nodiscard]] Vec2 place(const dynamics::State& state, std::size_t set, int node) const noexcept;
 
   const dynamics::Model& model_;
   GroundFrame ground_;

@@ -12,6 +12,7 @@
 #include "rondo/analysis/build/ground/held_ground.hpp"
 #include "rondo/analysis/build/ground/road_lines.hpp"
 #include "rondo/analysis/build/ground/small_ground.hpp"
+#include "rondo/analysis/build/ground/wheel_obstacles.hpp"
 #include "rondo/analysis/build/ground/wheel_road.hpp"
 #include "rondo/analysis/build/initial_state.hpp"
 #include "rondo/analysis/build/memory.hpp"
@@ -340,6 +341,7 @@ void set_up_run(const Case& c, Setup& s, SharedBody* shared, Steps steps) {
                s.model.n_nodes(), s.mesh.n_nodes(), s.probes.size());  // make_body() has been
   set_motion_and_friction(c, s.model);
   set_wheel_road(c, s);
+  set_wheel_obstacles(c, s);
   if (c.output.friction_work)
     s.model.friction_work = std::make_shared<dynamics::FrictionWork>(s.model);
   const int ratio = s.model.subdomains ? s.model.subdomains->ratio : 1;

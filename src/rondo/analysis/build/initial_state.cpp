@@ -84,12 +84,10 @@ std::vector<Vec3> start_positions(const Setup& s) {
   return x;
 }
 
-/// (n) where the profile of the ground is drawn, if there is ground [m]
-std::vector<Vec2> in_plane(const Setup& s, const std::vector<Vec3>& x) {
-  const contact::EdgeAxes axes = s.model.contact ? s.model.contact->axes : contact::EdgeAxes();
+/// (n) of a plane body [m]
+std::vector<Vec2> in_plane(const std::vector<Vec3>& x) {
   std::vector<Vec2> out;
-  std::ranges::transform(x, std::back_inserter(out),
-                         [&](Vec3 place) { return axes.from_ground(place).plane(); });
+  std::ranges::transform(x, std::back_inserter(out), [](Vec3 place) { return place.plane(); });
   return out;
 }
 
@@ -145,24 +143,27 @@ double check_nodes(const Case& c, const std::vector<double>& size, const std::ve
 /// The bend of the ground that is deepest behind an edge around a wheel in three dimensions, over
 /// the length of the edge. Its side view has no other cells that the ground may stand in. A road
 /// has no bends: where it does not fit the elements, wheel_road.hpp warns.
-GroundInside find_bend_inside(const Setup& s, const std::vector<Vec2>& x) {
+GroundInside find_bend_inside(const Setup& s, const std::vector<Vec3>& places) {
   GroundInside out;
-  for (const auto& [a, b] : s.model.contact->edges) {
-    const Vec2 from = x[at(a)], to = x[at(b)];
-    const contact::Intrusion found =
-        contact::deepest_inside(s.model.contact->ground, from, to, norm(s.model.reference[at(a)]));
-    const double length = norm(to - from);
-    if (found.depth / length > out.depth / out.size) out = {found.depth, length, found.at, a};
-  }
+  const dynamics::ContactModel& contact = *s.model.contact;
+  for (std::size_t set = 0; set < profile_count(contact); ++set)
+    for (const auto& [a, b] : contact.edges) {
+      const Vec2 from = on_profile(contact, set, places[at(a)]),
+                 to = on_profile(contact, set, places[at(b)]);
+      const contact::Intrusion found = contact::deepest_inside(profile_of(contact, set), from, to,
+                                                               norm(s.model.reference[at(a)]));
+      const double length = norm(to - from);
+      if (found.depth / length > out.depth / out.size) out = {found.depth, length, found.at, a};
+    }
   return out;
 }
 
 /// Ground between the nodes that stands as deep in a cell is met by no node: refused as well.
 /// @param told depth that the nodes were said to be in the ground [m]
-void check_ground_inside(const Case& c, const std::vector<double>& size, const std::vector<Vec2>& x,
-                         double told, Setup& s) {
+void check_ground_inside(const Case& c, const std::vector<double>& size,
+                         const std::vector<Vec3>& places, double told, Setup& s) {
   const GroundInside found =
-      s.model.solid ? find_bend_inside(s, x) : find_ground_inside(s, x, size);
+      s.model.solid ? find_bend_inside(s, places) : find_ground_inside(s, in_plane(places), size);
   const std::string where = fmt::format("({:.6g}, {:.6g})", found.place.x, found.place.y);
   if (found.depth > 0.5 * found.size) {
     const bool free = in_fixed_frame(s.model, at(found.node));
@@ -223,13 +224,12 @@ void check_start(const Case& c, Setup& s) {
                s.displacement.size(), s.model.n_nodes());
   const std::vector<double> size = element_sizes(s.mesh);
   const std::vector<Vec3> places = start_positions(s);
-  const std::vector<Vec2> x = in_plane(s, places);
   if (s.model.contact) {
     const double told = check_nodes(c, size, places, s);
-    check_ground_inside(c, size, x, told, s);
+    check_ground_inside(c, size, places, told, s);
   }
   if (s.mesh.is_solid()) return;  // its elements lie beside each other as they are made
-  refuse_overlaps(c, {s.mesh, x, s.model.surfaces.has_value()}, s.warnings);
+  refuse_overlaps(c, {s.mesh, in_plane(places), s.model.surfaces.has_value()}, s.warnings);
 }
 
 }  // namespace rondo::study

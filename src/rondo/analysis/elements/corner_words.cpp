@@ -4,13 +4,18 @@
 #include <fmt/format.h>
 
 #include "rondo/case/ground/ground_shape.hpp"
+#include "rondo/core/contract.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::study {
 
 CornerWords corner_words(const Case& c, const dynamics::Model& model) {
-  const contact::Corner& corner = model.contact->ground.corners()[0];
+  RONDO_DEMAND(has_sharp_corners(model));
+  std::size_t set = 0;
+  while (profile_of(*model.contact, set).corners().empty()) ++set;
+  const contact::Corner& corner = profile_of(*model.contact, set).corners()[0];
   const double fillet = corner.radius, spacing = model.contact->ground.spacing();
-  const Vec2 first = at_middle(c, corner.position);
+  const Vec2 first = at_middle(*model.contact, set, corner.position);
   CornerWords words;
   words.corners = fmt::format("sharp convex corners of the ground (the first at {:.6g}, {:.6g} m",
                               first.x, first.y);

@@ -51,6 +51,11 @@ ContactRows contact_rows(const Case& c, const dynamics::Model& model, const Fram
         "contact rows are those of a ground that is the same all across a wheel with a "
         "width, and a road is not",
         "the section of the road as ground.profile (docs/roads.md, section 4)");
+  if (has_obstacles_of_own_axes(c))
+    throw case_error(c, ground_key(c),
+                     "contact rows are those of a ground that is the same along its edges, and "
+                     "obstacles of several angles are not",
+                     "one angle for all obstacles and ground.profile = \"flat\"");
   RONDO_DEMAND(u.empty() || (u.size() == model.n_nodes() && u.components == model.components()),
                u.size(), u.components, model.n_nodes());
   const std::size_t components = model.components();

@@ -36,6 +36,10 @@ double ground_height(const Case& c, double radius) {
   if (!c.ground)
     throw case_error(c, "ground", "there is no ground to stand on",
                      "a [ground]; or the modes without --standing");
+  if (has_obstacles_of_own_axes(c))
+    throw case_error(c, ground_key(c),
+                     "a wheel that stands takes obstacles of one angle, on level ground",
+                     "one angle for all obstacles and ground.profile = \"flat\"");
   const std::optional<double> flat = flat_ground_below(c, radius);
   if (!flat)
     throw case_error(c, ground_key(c), "is not flat below the wheel at t = 0",

@@ -16,6 +16,9 @@ namespace has = dynamics::has;
 
 /// Sharp convex corners may touch the body between two nodes.
 bool has_sharp_corners(const Case& c) {
+  if (has_obstacles_of_own_axes(c))
+    return std::ranges::any_of(c.ground->obstacles,
+                               [](const contact::Obstacle& o) { return o.fillet == 0.0; });
   return c.ground && contact::shape_faults(c.ground->shape).empty() &&
          !contact::Ground(c.ground->shape).corners().empty();
 }

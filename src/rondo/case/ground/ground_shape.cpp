@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "rondo/core/index.hpp"
 
@@ -26,42 +27,40 @@ bool all_good(const CaseValues& in, const GroundCase& ground) {
   return good;
 }
 
+/// @param numbers of the obstacles in the case
 void check_obstacles(CaseValues& in, const std::vector<contact::Obstacle>& obstacles,
-                     const contact::GroundShape& base) {
+                     const std::vector<std::size_t>& numbers, const contact::GroundShape& base) {
   for (const contact::ObstacleFault& fault : contact::obstacle_faults(base, obstacles))
-    in.refuse(key_of(fault.obstacle, fault.member), fault.message, fault.allowed);
+    in.refuse(key_of(numbers[fault.obstacle], fault.member), fault.message, fault.allowed);
+}
+
+void check_lengths(CaseValues& in, const std::vector<contact::Obstacle>& obstacles) {
   for (std::size_t k = 0; k < obstacles.size(); ++k)
     if (obstacles[k].kind == contact::ObstacleKind::step && in.has(key_of(k, "length")))
       in.refuse(key_of(k, "length"), "a step has no length", "a \"cleat\"; or no length");
 }
 
-void refuse_on_road(CaseValues& in) {
-  in.refuse(item_of(list, 0),
-            "a road under a wheel with a width carries no obstacles: its surface has a slope of 1 "
-            "at the most",
-            "ground.profile in its place; or the obstacle in the heights of the file");
+bool is_level(const std::vector<Vec2>& profile) {
+  return std::ranges::all_of(profile, [&](Vec2 p) { return p.y == profile.front().y; });
 }
 
-/// Edges at an angle are those of one profile, seen normal to them: the ground below them is level.
+/// A plane body meets no edge at an angle.
 void check_angles(CaseValues& in, const Case& c) {
   const auto& obstacles = c.ground->obstacles;
-  const auto& profile = c.ground->profile;
-  const bool level = std::ranges::all_of(profile, [&](Vec2 p) { return p.y == profile.front().y; });
-  for (std::size_t k = 0; k < obstacles.size(); ++k) {
-    const std::string key = key_of(k, "angle");
-    if (obstacles[k].angle != obstacles[0].angle)
-      in.refuse(
-          key,
-          fmt::format("is another one than that of the first obstacle, {:.6g}", obstacles[0].angle),
-          "one angle for all obstacles");
-    if (obstacles[k].angle == 0.0) continue;
-    if (!is_solid(c))
-      in.refuse(key, "a plane body has no width to meet an edge at an angle with",
+  for (std::size_t k = 0; k < obstacles.size(); ++k)
+    if (obstacles[k].angle != 0.0 && !is_solid(c))
+      in.refuse(key_of(k, "angle"), "a plane body has no width to meet an edge at an angle with",
                 "0; or a disk.width");
-    if (!level)
-      in.refuse(key, "the ground below an edge at an angle must be level",
-                "0; or ground.profile = \"flat\"");
-  }
+}
+
+/// Obstacles of one angle are those of a profile that is drawn normal to their edges, if that is
+/// the same all along them.
+bool needs_own_axes(const Case& c) {
+  const auto& obstacles = c.ground->obstacles;
+  const double angle = obstacles.front().angle;
+  return is_on_road_surface(c) || (angle != 0.0 && !is_level(c.ground->profile)) ||
+         std::ranges::any_of(obstacles,
+                             [&](const contact::Obstacle& o) { return o.angle != angle; });
 }
 
 /// The obstacles as they follow each other normal to their edges.
@@ -72,22 +71,81 @@ std::vector<contact::Obstacle> normal_to_edges(std::vector<contact::Obstacle> ob
 }
 
 /// What the obstacles make of the profile may have no room for the fillets of both.
-void check_whole(CaseValues& in, const Case& c, const contact::GroundShape& whole) {
-  const double turned = std::cos(c.ground->obstacles.front().angle);
+void check_whole(CaseValues& in, double angle, const contact::GroundShape& whole) {
   for (const contact::ShapeFault& fault : contact::shape_faults(whole))
     in.fault(list,
              fmt::format("on this ground {}, near x = {:.6g} m",
                          fault.about_fillet ? "a fillet does not fit" : fault.message,
-                         whole.profile[at(fault.point)].x / turned),
+                         whole.profile[at(fault.point)].x / std::cos(angle)),
              "a smaller fillet, or another place");
 }
 
-}  // namespace
-
-Vec2 at_middle(const Case& c, Vec2 of_shape) {
-  const double angle = c.ground->edge_angle;
-  return angle == 0.0 ? of_shape : Vec2{of_shape.x / std::cos(angle), of_shape.y};
+/// All obstacles in the profile of the ground.
+void draw_in_profile(CaseValues& in, Case& c, const contact::GroundShape& base) {
+  const std::vector<contact::Obstacle> obstacles = normal_to_edges(c.ground->obstacles);
+  std::vector<std::size_t> numbers(obstacles.size());
+  std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+  check_obstacles(in, obstacles, numbers, base);
+  if (!all_good(in, *c.ground)) return;
+  contact::GroundShape whole = contact::with_obstacles(base, obstacles);
+  const double angle = c.ground->obstacles.front().angle;
+  check_whole(in, angle, whole);
+  if (!in.good({list})) return;
+  c.ground->shape = std::move(whole);
+  c.ground->edge_angle = angle;
 }
+
+/// On ground that is not level contact is that of nodes, which a sharp edge passes between.
+void refuse_sharp_edges(CaseValues& in, const GroundCase& ground) {
+  for (std::size_t k = 0; k < ground.obstacles.size(); ++k)
+    if (ground.obstacles[k].fillet == 0.0)
+      in.refuse(key_of(k, "fillet"),
+                "an obstacle at an angle on ground that is not level, or on a road under a wheel "
+                "with a width, touches its nodes alone, between which a sharp edge passes",
+                "> 0, best as long as the contact nodes are apart; or ground.profile = \"flat\"");
+}
+
+/// Obstacles in axes of their own stand on ground with one height and one slope at each place.
+void refuse_corners_below(CaseValues& in, const contact::GroundShape& base) {
+  const auto& p = base.profile;
+  for (std::size_t i = 1; i < p.size(); ++i)
+    if (!(std::abs(p[i].y - p[i - 1].y) <= p[i].x - p[i - 1].x))
+      in.fault("ground.profile",
+               fmt::format("is steeper than 45 degrees at x = {:.6g} m, and obstacles of several "
+                           "angles stand on it, or obstacles at an angle",
+                           p[i].x),
+               "slopes of 1 at the most; or obstacles at the angle 0");
+  if (!in.good({"ground.profile"})) return;
+  const contact::Ground ground(base);
+  if (!ground.corners().empty())
+    in.fault("ground.profile",
+             fmt::format("has a sharp corner at x = {:.6g} m, and obstacles of several angles "
+                         "stand on it, or obstacles at an angle",
+                         ground.corners().front().position.x),
+             "a ground.fillet > 0; or obstacles at the angle 0");
+}
+
+void check_own_axes(CaseValues& in, Case& c, const contact::GroundShape& base) {
+  const auto& all = c.ground->obstacles;
+  std::vector<double> angles;
+  for (const contact::Obstacle& o : all)
+    if (std::ranges::find(angles, o.angle) == angles.end()) angles.push_back(o.angle);
+  for (const double angle : angles) {
+    std::vector<contact::Obstacle> obstacles;
+    std::vector<std::size_t> numbers;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (all[k].angle == angle) obstacles.push_back(all[k]), numbers.push_back(k);
+    obstacles = normal_to_edges(std::move(obstacles));
+    check_obstacles(in, obstacles, numbers, {});
+    if (all_good(in, *c.ground)) check_whole(in, angle, contact::with_obstacles({}, obstacles));
+  }
+  if (is_on_road_surface(c) || !is_level(c.ground->profile)) refuse_sharp_edges(in, *c.ground);
+  if (!is_on_road_surface(c)) refuse_corners_below(in, base);
+  c.ground->shape = {};
+  c.ground->has_own_axes = true;
+}
+
+}  // namespace
 
 std::string fillet_key(const Case& c, double radius) {
   const auto& obstacles = c.ground->obstacles;
@@ -102,16 +160,11 @@ void make_shape(CaseValues& in, Case& c) {
   c.ground->shape = base;
   if (c.ground->obstacles.empty() || !shape_faults(base).empty() || !all_good(in, *c.ground))
     return;
-  if (is_on_road_surface(c)) return refuse_on_road(in);
-  const std::vector<contact::Obstacle> obstacles = normal_to_edges(c.ground->obstacles);
-  check_obstacles(in, obstacles, base);
+  check_lengths(in, c.ground->obstacles);
   check_angles(in, c);
   if (!all_good(in, *c.ground)) return;
-  contact::GroundShape whole = contact::with_obstacles(base, obstacles);
-  check_whole(in, c, whole);
-  if (!in.good({list})) return;
-  c.ground->shape = std::move(whole);
-  c.ground->edge_angle = c.ground->obstacles.front().angle;
+  if (needs_own_axes(c)) return check_own_axes(in, c, base);
+  draw_in_profile(in, c, base);
 }
 
 }  // namespace rondo::study

@@ -8,16 +8,13 @@
 
 namespace rondo::study {
 
-/// Sets GroundCase::shape and edge_angle. Faults of obstacles are collected in `in`; with any the
-/// shape has none.
+/// Sets GroundCase::shape and edge_angle, or has_own_axes. Faults of obstacles are collected in
+/// `in`; with any the shape has none.
 /// @pre all keys are read, and the road too
 void make_shape(CaseValues& in, Case& c);
 
 /// The key of a fillet with this radius: that of an obstacle, if one has it, else of the ground.
 /// @pre there is ground
 [[nodiscard]] std::string fillet_key(const Case& c, double radius);
-
-/// The place of a point of GroundCase::shape in the middle of the track. @pre there is ground
-[[nodiscard]] Vec2 at_middle(const Case& c, Vec2 of_shape);
 
 }  // namespace rondo::study

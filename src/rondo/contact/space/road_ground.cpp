@@ -94,6 +94,11 @@ double RoadGround::clearance(Vec3 place) const noexcept {
   return std::isnan(above) ? std::numeric_limits<double>::infinity() : above;
 }
 
+GroundBelow RoadGround::below(double t1, double t2) const noexcept {
+  const road::SurfacePoint surface = straight_foot({t1, 0.0, t2}).surface;
+  return {surface.height - placing_.height, surface.slope_u, -surface.slope_v};
+}
+
 void RoadGround::improve(RoadFoot& foot, Vec3 place, int steps) const noexcept {
   const double u = foot.u, v = foot.v;
   Vec2 from;

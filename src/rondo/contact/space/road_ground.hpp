@@ -4,7 +4,7 @@
 #pragma once
 #include <vector>
 
-#include "rondo/contact/space/space_ground.hpp"
+#include "rondo/contact/space/base_ground.hpp"
 #include "rondo/road/road_part.hpp"
 #include "rondo/road/surface.hpp"
 
@@ -27,7 +27,7 @@ struct RoadFoot {
 /// One touch for each point straight below the surface. Its gap is n·(x - p) with the foot p and
 /// the normal n of the surface there; the foot is found by Newton's method from the point of the
 /// surface straight above.
-class RoadGround final : public SpaceGround {
+class RoadGround final : public BaseGround {
  public:
   static constexpr int newton_steps = 2;  ///< at most
 
@@ -38,6 +38,7 @@ class RoadGround final : public SpaceGround {
   [[nodiscard]] SpaceTouches touches(Vec3 place) const noexcept override;
   [[nodiscard]] double clearance(Vec3 place) const noexcept override;
   [[nodiscard]] double top(double from, double to) const noexcept override;
+  [[nodiscard]] GroundBelow below(double t1, double t2) const noexcept override;
 
   /// The foot of a point, by at most so many steps.
   [[nodiscard]] RoadFoot foot_of(Vec3 place, int steps = newton_steps) const noexcept;

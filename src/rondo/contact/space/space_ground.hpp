@@ -6,6 +6,8 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <span>
 
 #include "rondo/contact/ground.hpp"
 #include "rondo/contact/space/edge_axes.hpp"
@@ -62,6 +64,18 @@ struct SpaceTouches {
   return out;
 }
 
+/// A profile that is drawn normal to edges of one direction.
+struct EdgeSet {
+  EdgeAxes axes;
+  Ground ground;
+};
+
+/// What a point touches by the profile of one set.
+struct SetTouches {
+  std::size_t set = 0;
+  Touches touches;
+};
+
 /// Ground that is not the same all along t2. Places are (t1, n, t2) [m].
 class SpaceGround {
  public:
@@ -74,6 +88,15 @@ class SpaceGround {
   /// No ground above this height between two places along t1, as far as the wheel comes along t2
   /// [m].
   [[nodiscard]] virtual double top(double from, double to) const noexcept = 0;
+
+  /// Profiles whose corners may touch a body between its nodes; none: nodes alone touch the ground.
+  [[nodiscard]] virtual std::span<const EdgeSet> edge_sets() const noexcept { return {}; }
+  /// A place as the profile of a set sees it. @pre set < edge_sets().size()
+  [[nodiscard]] virtual Vec2 on_set(std::size_t /*set*/, Vec3 place) const noexcept {
+    return place.plane();
+  }
+  /// What a point touches, in the axes of a set. @pre edge_sets() is not empty
+  [[nodiscard]] virtual SetTouches touches_on_set(Vec3 /*place*/) const noexcept { return {}; }
 
  protected:
   SpaceGround() = default;

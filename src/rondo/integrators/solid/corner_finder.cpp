@@ -10,6 +10,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/integrators/general/readable_step.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 
 namespace rondo::dynamics {
 namespace {
@@ -63,27 +64,52 @@ CornerFinder::CornerFinder(const Model& model)
       edges_(edge_rows(model)),
       deepest_(std::ranges::max(edges_.deepest)),
       candidate_(places_among(model.contact->nodes, model.n_nodes())),
-      places_(model.n_nodes()) {
+      first_corner_{0},
+      places_(model.n_nodes()),
+      on_profile_(profile_count(*model.contact), std::vector<Vec2>(model.n_nodes())) {
   RONDO_DEMAND(has_sharp_corners(model) && model.solid.has_value());
+  for (std::size_t set = 0; set < on_profile_.size(); ++set) {
+    const contact::Ground& ground = profile_of(*model.contact, set);
+    first_corner_.push_back(first_corner_.back() + ground.corners().size());
+    bend_reach_ = std::max(bend_reach_, ground.bend_reach());
+  }
   for (const auto& [a, b] : edges_.boundary.edges)
     RONDO_DEMAND(candidate_[at(a)] >= 0 && candidate_[at(b)] >= 0, a, b);
 }
 
+void CornerFinder::set_place(int node, Vec3 place) noexcept {
+  places_[at(node)] = place;
+  for (std::size_t set = 0; set < on_profile_.size(); ++set)
+    on_profile_[set][at(node)] = on_profile(*model_.contact, set, place);
+}
+
+std::size_t CornerFinder::set_of(std::size_t corner) const noexcept {
+  std::size_t set = 0;
+  while (corner >= first_corner_[set + 1]) ++set;
+  return set;
+}
+
 void CornerFinder::find_near(double wider, std::vector<Near>& near) const {
   near.clear();
-  const contact::Ground& ground = model_.contact->ground;
+  for (std::size_t set = 0; set < on_profile_.size(); ++set) find_near_on(set, wider, near);
+  std::ranges::sort(near);
+}
+
+void CornerFinder::find_near_on(std::size_t set, double wider, std::vector<Near>& near) const {
+  const contact::Ground& ground = profile_of(*model_.contact, set);
   const contact::Corner* const first = ground.corners().data();
+  const std::span<const Vec2> x = places(set);
   for (std::size_t i = 0; i < edges_.boundary.edges.size(); ++i) {
-    const Vec2 a = places_[at(edges_.boundary.edges[i][0])];
-    const Vec2 b = places_[at(edges_.boundary.edges[i][1])];
+    const Vec2 a = x[at(edges_.boundary.edges[i][0])];
+    const Vec2 b = x[at(edges_.boundary.edges[i][1])];
     const double low = std::min(a.y, b.y) - wider, high = std::max(a.y, b.y) + wider;
     if (low > ground.top()) continue;
     for (const contact::Corner& c :
          ground.corners(std::min(a.x, b.x) - wider, std::max(a.x, b.x) + wider))
       if (c.position.y >= low && c.position.y <= high)
-        near.push_back(Near{static_cast<std::size_t>(&c - first), static_cast<int>(i)});
+        near.push_back(
+            Near{first_corner_[set] + static_cast<std::size_t>(&c - first), static_cast<int>(i)});
   }
-  std::ranges::sort(near);
 }
 
 void CornerFinder::find(std::span<const Near> near, std::vector<CornerRow>& rows) {
@@ -110,15 +136,16 @@ void CornerFinder::find(std::span<const Near> near, std::vector<CornerRow>& rows
 }
 
 /// A node that the ground pushes along a normal.
-CornerRow CornerFinder::on_node(int node, Vec2 normal) const noexcept {
+CornerRow CornerFinder::on_node(std::size_t set, int node, Vec2 normal) const noexcept {
   const Vec2 tangent = turn90(normal);
   CornerRow row;
   row.kind = ContactKind::facet;
   row.count = 1;
   row.node = {node, -1};
   row.weight = {1.0, 0.0};
-  row.block[0] =
-      in_space(ground_, model_.contact->axes, {normal.x, normal.y, tangent.x, tangent.y}, 1.0);
+  row.set = set;
+  row.block[0] = in_space(ground_, axes_of(*model_.contact, set),
+                          {normal.x, normal.y, tangent.x, tangent.y}, 1.0);
   row.normal = normal;
   return row;
 }
@@ -127,15 +154,18 @@ CornerRow CornerFinder::on_node(int node, Vec2 normal) const noexcept {
 /// its first and last corner, they are at none between, so that those are left out.
 void CornerFinder::leave_out_middle() {
   std::ranges::sort(at_corners_, {}, [](const CornerRow& row) {
-    return std::tuple(row.node, row.weight[1], row.key);
+    return std::tuple(row.node, row.set, row.weight[1], row.key);
   });
   std::array<int, 2> last{-1, -1};
+  std::size_t last_set = 0;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < at_corners_.size(); ++i) {
     const CornerRow row = at_corners_[i];
-    const bool is_between = row.count == 2 && row.node == last && i + 1 < at_corners_.size() &&
-                            at_corners_[i + 1].node == row.node;
+    const bool is_between = row.count == 2 && row.node == last && row.set == last_set &&
+                            i + 1 < at_corners_.size() && at_corners_[i + 1].node == row.node &&
+                            at_corners_[i + 1].set == row.set;
     last = row.node;
+    last_set = row.set;
     if (is_between)
       left_.push_back(row.key);
     else
@@ -145,7 +175,7 @@ void CornerFinder::leave_out_middle() {
 }
 
 CornerRow CornerFinder::at_nearer_node(const CornerRow& row) const noexcept {
-  CornerRow out = on_node(row.node[row.weight[0] < row.weight[1] ? 1 : 0], -row.normal);
+  CornerRow out = on_node(row.set, row.node[row.weight[0] < row.weight[1] ? 1 : 0], -row.normal);
   out.point = row.point;
   out.key = row.key;
   out.gap = row.gap;
@@ -153,17 +183,18 @@ CornerRow CornerFinder::at_nearer_node(const CornerRow& row) const noexcept {
 }
 
 /// A corner on an edge, as one of a plane body (node_to_segment.hpp), with t2.
-CornerRow CornerFinder::on_edge(const contact::EdgeTouch& found) const noexcept {
+CornerRow CornerFinder::on_edge(std::size_t set, const contact::EdgeTouch& found) const noexcept {
   const auto [a, b] = edges_.boundary.edges[at(found.edge)];
   const double at_b = found.touch.at;
-  const contact::SegmentRows plane =
-      contact::segment_rows(found.touch, norm(places_[at(b)] - places_[at(a)]));
-  const contact::EdgeAxes& axes = model_.contact->axes;
+  const std::span<const Vec2> x = places(set);
+  const contact::SegmentRows plane = contact::segment_rows(found.touch, norm(x[at(b)] - x[at(a)]));
+  const contact::EdgeAxes& axes = axes_of(*model_.contact, set);
   CornerRow row;
   row.kind = ContactKind::corner;
   row.count = 2;
   row.node = {a, b};
   row.weight = {1.0 - at_b, at_b};
+  row.set = set;
   row.block = {in_space(ground_, axes, plane.a, at_b - 1.0),
                in_space(ground_, axes, plane.b, -at_b)};
   row.normal = found.touch.normal;
@@ -173,15 +204,18 @@ CornerRow CornerFinder::on_edge(const contact::EdgeTouch& found) const noexcept 
 /// @param edges of one row
 void CornerFinder::find_corner(std::size_t c, std::span<const int> edges,
                                std::vector<CornerRow>& rows) {
-  const contact::Corner& corner = model_.contact->ground.corners()[c];
+  const std::size_t set = set_of(c);
+  const contact::Corner& corner =
+      profile_of(*model_.contact, set).corners()[c - first_corner_[set]];
   const Vec2 facing = corner.normals[0] + corner.normals[1];
-  const contact::EdgeTouches touches = contact::touch_boundary(
-      {.position = corner.position, .bend = &corner}, {edges_.boundary, places_, edges, deepest_});
+  const contact::EdgeTouches touches =
+      contact::touch_boundary({.position = corner.position, .bend = &corner},
+                              {edges_.boundary, places(set), edges, deepest_});
   for (int t = 0; t < touches.count; ++t) {
     const contact::EdgeTouch& found = touches.at[at(t)];
     if (-found.touch.gap > edges_.deepest[at(found.edge)] || dot(found.touch.normal, facing) >= 0.0)
       continue;
-    CornerRow row = on_edge(found);
+    CornerRow row = on_edge(set, found);
     row.point = contact::first_met(corner, -found.touch.normal);
     row.key = key_of_corner(c, found.edge);
     row.gap = found.touch.gap;
@@ -192,11 +226,11 @@ void CornerFinder::find_corner(std::size_t c, std::span<const int> edges,
 void CornerFinder::find_on_ground(int node, std::vector<CornerRow>& rows) const {
   const ContactModel& contact = *model_.contact;
   const std::size_t candidate = candidate_of(node);
-  const contact::Touches touches = contact.ground.touches(places_[at(node)]);
+  const auto [set, touches] = touches_on_profile(contact, places_[at(node)]);
   for (int t = 0; t < touches.count; ++t) {
     const contact::Touch& touch = touches.at[at(t)];
-    CornerRow row = on_node(node, touch.normal);
-    row.point = places_[at(node)];
+    CornerRow row = on_node(set, node, touch.normal);
+    row.point = places(set)[at(node)];
     row.key = 2 * candidate + at(t);
     row.gap = touch.gap;
     row.tributary = contact.tributary[candidate];

@@ -34,10 +34,15 @@ class CornerFinder {
   [[nodiscard]] const EdgeRows& edges() const noexcept { return edges_; }
   /// The largest of EdgeRows::deepest                                                  [m]
   [[nodiscard]] double deepest() const noexcept { return deepest_; }
-  /// (n) on the profile, by on_profile() of wheel_ground.hpp; set by the caller for the candidates,
-  /// or for those near corners [m]
-  [[nodiscard]] std::span<Vec2> places() noexcept { return places_; }
-  [[nodiscard]] std::span<const Vec2> places() const noexcept { return places_; }
+  /// Where a node is, (t1, n, t2); set by the caller for the candidates, or for those near corners
+  /// [m]
+  void set_place(int node, Vec3 place) noexcept;
+  /// (n) places on a profile, by on_profile() of wheel_ground.hpp [m]
+  [[nodiscard]] std::span<const Vec2> places(std::size_t set = 0) const noexcept {
+    return on_profile_[set];
+  }
+  /// How far from its position a point of a corner may be                               [m]
+  [[nodiscard]] double bend_reach() const noexcept { return bend_reach_; }
 
   /// Place of a node in ContactModel::nodes. @pre it is there
   [[nodiscard]] std::size_t candidate_of(int node) const noexcept {
@@ -46,7 +51,7 @@ class CornerFinder {
 
   /// A corner of the ground and edges that it may touch.
   struct Near {
-    std::size_t corner = 0;  ///< place in Ground::corners()
+    std::size_t corner = 0;  ///< place in Ground::corners(), those of one profile after the other
     int edge = 0;            ///< of EdgeRows
     auto operator<=>(const Near&) const = default;
   };
@@ -67,16 +72,21 @@ class CornerFinder {
  private:
   void find_corner(std::size_t corner, std::span<const int> edges, std::vector<CornerRow>& rows);
   void leave_out_middle();
-  [[nodiscard]] CornerRow on_edge(const contact::EdgeTouch& found) const noexcept;
-  [[nodiscard]] CornerRow on_node(int node, Vec2 normal) const noexcept;
+  void find_near_on(std::size_t set, double wider, std::vector<Near>& near) const;
+  [[nodiscard]] std::size_t set_of(std::size_t corner) const noexcept;
+  [[nodiscard]] CornerRow on_edge(std::size_t set, const contact::EdgeTouch& found) const noexcept;
+  [[nodiscard]] CornerRow on_node(std::size_t set, int node, Vec2 normal) const noexcept;
   void find_on_ground(int node, std::vector<CornerRow>& rows) const;
 
   const Model& model_;
   const GroundFrame ground_;
   const EdgeRows edges_;
   double deepest_ = 0.0;
-  std::vector<int> candidate_;  ///< (n) place in ContactModel::nodes, -1: none
-  std::vector<Vec2> places_;
+  std::vector<int> candidate_;                 ///< (n) place in ContactModel::nodes, -1: none
+  std::vector<std::size_t> first_corner_;      ///< (profiles + 1) of each among all corners
+  std::vector<Vec3> places_;                   ///< (n) in the ground frame                 [m]
+  std::vector<std::vector<Vec2>> on_profile_;  ///< (profiles, n)                           [m]
+  double bend_reach_ = 0.0;
   std::vector<int> of_corner_, touched_;
   std::vector<CornerRow> at_corners_;
   std::vector<std::uint64_t> left_;

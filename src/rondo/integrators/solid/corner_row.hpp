@@ -15,7 +15,8 @@ struct CornerRow {
   std::array<int, 2> node{};
   std::array<contact::SpatialBlock, 2> block{};  ///< H_i; H_iᵀ r is the impulse on the node
   std::array<double, 2> weight{};                ///< of the nodes in the place that touches
-  std::uint64_t key = 0;                         ///< name of the contact, the same in the next step
+  std::size_t set = 0;       ///< profile of the ground, see profile_count() of wheel_ground.hpp
+  std::uint64_t key = 0;     ///< name of the contact, the same in the next step
   Vec2 normal;               ///< in the plane of the profile; what r acts on is pushed along it
   Vec2 point;                ///< that touches, in the plane of the profile      [m]
   double gap = 0.0;          ///< <= 0                                          [m]

@@ -140,8 +140,10 @@ double CornerSolver::turning_of(const SolidContactStep& step, const CornerRow& r
   for (std::size_t i = 0; i < 2; ++i) {
     const std::size_t k = at(row.node[i]);
     const Vec3 velocity = velocity_before(step, arm_of(state, k), state.v.space()[k]);
-    to[i] = finder_.places()[k] +
-            model_.dt * on_profile(*model_.contact, step.ground.from_wheel(velocity));
+    to[i] =
+        finder_.places(row.set)[k] +
+        model_.dt *
+            axes_of(*model_.contact, row.set).from_ground(step.ground.from_wheel(velocity)).plane();
   }
   const Vec2 along = to[1] - to[0];
   const double gap = cross(row.point - to[0], along) / norm(along);
@@ -151,9 +153,9 @@ double CornerSolver::turning_of(const SolidContactStep& step, const CornerRow& r
 /// It may have come in beside the edge.
 bool CornerSolver::came_round(const CornerRow& row) const noexcept {
   const auto edge = static_cast<std::size_t>(row.key & ((1ULL << key_bits_of_edge) - 1));
-  return came_round_an_end(row.point, finder_.places()[at(row.node[0])],
-                           finder_.places()[at(row.node[1])], model_.dt * row.before.y,
-                           finder_.edges().boundary.beside[edge]);
+  const std::span<const Vec2> places = finder_.places(row.set);
+  return came_round_an_end(row.point, places[at(row.node[0])], places[at(row.node[1])],
+                           model_.dt * row.before.y, finder_.edges().boundary.beside[edge]);
 }
 
 /// See GeneralContact::look_for_late.
@@ -168,7 +170,7 @@ void CornerSolver::look_for_late(const SolidContactStep& step, const KeptImpulse
         was_found(before, row.key) || came_round(row))
       continue;
     report.late = -row.gap;
-    report.late_at = model_.contact->axes.to_ground(row.point).plane();
+    report.late_at = axes_of(*model_.contact, row.set).to_ground(row.point).plane();
   }
 }
 
@@ -191,7 +193,9 @@ void CornerSolver::make_problem(const SolidContactStep& step, Rows rows) {
 bool CornerSolver::solve_pair() {
   if (asked_.size() != 2) return false;
   const CornerRow &a = rows_[at(asked_[0])], &b = rows_[at(asked_[1])];
-  if (a.count + b.count != 2 || a.node[0] != b.node[0] || a.friction != b.friction) return false;
+  if (a.count + b.count != 2 || a.node[0] != b.node[0] || a.set != b.set ||
+      a.friction != b.friction)
+    return false;
   const auto pair = contact::solve_spatial_pair(
       {a.free, problem_.block(0, 0), {a.bounce, b.bounce}, rotation_between(a.normal, b.normal)},
       a.friction);
@@ -317,7 +321,7 @@ void CornerSolver::finish(const SolidContactStep& step, CornerRow& row, State& s
 /// A node on a facet is pushed along the normal, the nodes of an edge against it.
 void CornerSolver::add_active(const SolidContactStep& step, const CornerRow& row,
                               State& state) const {
-  const contact::EdgeAxes& axes = model_.contact->axes;
+  const contact::EdgeAxes& axes = axes_of(*model_.contact, row.set);
   for (int i = 0; i < row.count; ++i) {
     const Vec3 push = step.ground.from_wheel(contact::transposed(row.block[at(i)], row.impulse));
     ActiveContact a;

@@ -47,11 +47,11 @@ void SolidContacts::find_at_corners(const SolidContactStep& step, const State& s
   CornerFinder& finder = corners_->finder();
   const std::span u = state.u.space();
   for (const int node : model_.contact->nodes) {
-    finder.places()[at(node)] = on_profile(
-        *model_.contact, place_in_space(step, reference_of<Vec3>(model_, at(node)) + u[at(node)]));
+    finder.set_place(node,
+                     place_in_space(step, reference_of<Vec3>(model_, at(node)) + u[at(node)]));
     is_held_[at(node)] = 0;
   }
-  finder.find_near(finder.deepest() + model_.contact->ground.bend_reach(), near_);
+  finder.find_near(finder.deepest() + finder.bend_reach(), near_);
   for (const CornerRow& row : corners_->find(near_))
     for (int i = 0; i < row.count; ++i) is_held_[at(row.node[at(i)])] = 1;
 }

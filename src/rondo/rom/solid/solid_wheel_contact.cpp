@@ -162,6 +162,10 @@ void SolidWheel::add_candidates(const SolidMotion& m) {
     Near& near = near_[i];
     const SpaceTouch touch = touch_of(near, m);
     near.candidate |= touch.gap < candidate_share * model_.radius || near.force != Vec3{};
+    if (!std::isfinite(touch.gap)) {  // beside the road
+      near.candidate = false;
+      near.force = {};
+    }
     if (!near.candidate) continue;
     solved_.push_back(i);
     touch_.push_back(touch);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "rondo/analysis/build/ground/road_reach.hpp"
 #include "rondo/case/case_keys.hpp"
@@ -52,7 +53,10 @@ void tell_obstacles(const Case& c, const Stretch& reach, Setup& s) {
     if (o.angle != 0.0) text += fmt::format(", at {:.3g} rad", o.angle);
     s.figures.emplace_back("obstacle", text);
     const double aside = std::abs(std::tan(o.angle)) * half_width(s);
-    if (is_missed(reach, o.at - aside, o.at + length + aside))
+    const double end = o.kind == ObstacleKind::step  // behind it is another level
+                           ? std::numeric_limits<double>::infinity()
+                           : o.at + length + aside;
+    if (is_missed(reach, o.at - aside, end))
       warn_of_missed(item_of("ground.obstacle", k), name_of(o.kind), reach, s);
   }
 }

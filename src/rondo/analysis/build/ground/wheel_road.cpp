@@ -9,6 +9,7 @@
 
 #include "rondo/analysis/build/ground/road_lines.hpp"
 #include "rondo/analysis/build/ground/road_reach.hpp"
+#include "rondo/analysis/build/ground/wheel_obstacles.hpp"
 #include "rondo/case/ground/road_ground.hpp"
 #include "rondo/contact/space/road_ground.hpp"
 #include "rondo/core/contract.hpp"
@@ -211,9 +212,10 @@ void set_wheel_road(const Case& c, Setup& s) {
   const road::RoadReport report = road::report_of(*road.read, surface, met);
   refuse_steep(c, report.steepest);
   tell_surface(c, s, surface, reached, report);
-  s.model.contact->space = std::make_shared<const contact::RoadGround>(
+  const auto ground = std::make_shared<const contact::RoadGround>(
       std::move(surface), contact::RoadPlacing{*road.start, road.offset, road.height},
       RoadPart{.v_from = reached.v_from, .v_to = reached.v_to});
+  s.model.contact->space = obstacles_on(c, ground, s);
 }
 
 }  // namespace rondo::study

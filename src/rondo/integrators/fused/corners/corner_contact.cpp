@@ -60,10 +60,10 @@ void CornerContact::look_out(std::span<StepContext> steps, const CandidateFields
   const double reach = reach_of(steps.size(), fields, contact_.finder().deepest());
   look_around(steps, reach);
   const contact::Ground& ground = boundary_.contact->ground;
-  const auto corners = ground.corners(around_.low.x, around_.high.x);
+  const auto corners = ground.corners(around().low.x, around().high.x);
   if (!corners.empty()) set_edge_boxes();
   for (const contact::Corner& c : corners)
-    if (c.position.y >= around_.low.y && c.position.y <= around_.high.y)
+    if (c.position.y >= around().low.y && c.position.y <= around().high.y)
       look_at(static_cast<std::size_t>(&c - ground.corners().data()), steps, reach);
   for (StepContext& step : steps) step.held = any_near() ? is_held_.data() : nullptr;
   if (any_near() || !was_near) return;

@@ -48,6 +48,13 @@ Model boundary_of(const Model& model) {
 /// Batches for which a look from afar holds.
 constexpr int batches_between_looks = 64;
 
+/// With several profiles each point counts its height from the others: the center from those below
+/// it, which are not those below the boundary.
+void forget_heights(Box& box) noexcept {
+  box.low.y = -std::numeric_limits<double>::infinity();
+  box.high.y = std::numeric_limits<double>::infinity();
+}
+
 bool has_corner_within(const contact::Ground& ground, const Box& box) noexcept {
   return std::ranges::any_of(ground.corners(box.low.x, box.high.x), [&](const contact::Corner& c) {
     return c.position.x >= box.low.x && c.position.x <= box.high.x && c.position.y >= box.low.y &&
@@ -61,8 +68,12 @@ HeldContact::HeldContact(const Model& model)
     : boundary_(boundary_of(model)),
       state_(boundary_),
       begin_(boundary_.n_nodes()),
+      around_(profile_count(*boundary_.contact)),
       wanted_(boundary_.n_nodes()),
-      is_held_(boundary_.n_nodes()) {}
+      is_held_(boundary_.n_nodes()) {
+  for (std::size_t set = 0; set < around_.size(); ++set)
+    bend_reach_ = std::max(bend_reach_, profile_of(*boundary_.contact, set).bend_reach());
+}
 
 /// A touch is half an edge deep at the most. A node is not missed if it moves no more than twice as
 /// fast as the fastest candidate now, or two edges in the batch (a wave passes some 16 edges).
@@ -86,10 +97,10 @@ double HeldContact::reach_of(std::size_t n_steps, const CandidateFields& fields,
   const double time = static_cast<double>(n_steps) * boundary_.dt;
   way_ = 4.0 * touch + 2.0 * time * std::sqrt(fastest);
   batches_left_ = batches_between_looks;
-  far_ = farthest_ + 5.0 * touch + boundary_.contact->ground.bend_reach() +
+  far_ = farthest_ + 5.0 * touch + bend_reach_ +
          2.0 * batches_between_looks * time * std::sqrt(fastest);
   looked_ = true;
-  return touch + way_ + boundary_.contact->ground.bend_reach();
+  return touch + way_ + bend_reach_;
 }
 
 bool HeldContact::is_far(std::span<const StepContext> steps) noexcept {
@@ -97,20 +108,41 @@ bool HeldContact::is_far(std::span<const StepContext> steps) noexcept {
   if (batches_left_ == 0) return false;
   --batches_left_;
   look_around(steps, far_ - farthest_);
-  return !has_corner_within(boundary_.contact->ground, around_);
+  return !has_corner_around(0.0);
+}
+
+bool HeldContact::has_corner_around(double wider) const noexcept {
+  const Vec2 by{wider, wider};
+  for (std::size_t set = 0; set < around_.size(); ++set)
+    if (has_corner_within(profile_of(*boundary_.contact, set),
+                          {around_[set].low - by, around_[set].high + by}))
+      return true;
+  return false;
+}
+
+bool HeldContact::is_beside_corner() const noexcept {
+  for (std::size_t set = 0; set < around_.size(); ++set)
+    if (!profile_of(*boundary_.contact, set)
+             .corners(around_[set].low.x, around_[set].high.x)
+             .empty())
+      return true;
+  return false;
 }
 
 void HeldContact::look_around(std::span<const StepContext> steps, double reach) noexcept {
   RONDO_ASSERT(!steps.empty(), boundary_.n_nodes());
-  const Vec2 first = on_profile(*boundary_.contact, steps.front().frame.center);
-  around_ = {first, first};
-  for (const StepContext& step : steps) {
-    const Vec2 x = on_profile(*boundary_.contact, step.frame.center);
-    around_.low = {std::min(around_.low.x, x.x), std::min(around_.low.y, x.y)};
-    around_.high = {std::max(around_.high.x, x.x), std::max(around_.high.y, x.y)};
-  }
   const Vec2 by{farthest_ + reach, farthest_ + reach};
-  around_ = {around_.low - by, around_.high + by};
+  for (std::size_t set = 0; set < around_.size(); ++set) {
+    const Vec2 first = on_profile(*boundary_.contact, set, steps.front().frame.center);
+    Box box{first, first};
+    for (const StepContext& step : steps) {
+      const Vec2 x = on_profile(*boundary_.contact, set, step.frame.center);
+      box.low = {std::min(box.low.x, x.x), std::min(box.low.y, x.y)};
+      box.high = {std::max(box.high.x, x.x), std::max(box.high.y, x.y)};
+    }
+    around_[set] = {box.low - by, box.high + by};
+    if (around_.size() > 1) forget_heights(around_[set]);
+  }
 }
 
 double HeldContact::unseen(const CandidateFields& fields, double astray) const noexcept {
@@ -122,10 +154,7 @@ double HeldContact::unseen(const CandidateFields& fields, double astray) const n
   }
   const double moved = std::sqrt(squared) + astray;
   if (!(moved > way_)) return 0.0;
-  const Vec2 by{moved, moved};
-  const bool near =
-      has_corner_within(boundary_.contact->ground, {around_.low - by, around_.high + by});
-  return near ? moved : 0.0;
+  return has_corner_around(moved) ? moved : 0.0;
 }
 
 void HeldContact::want(const contact::Boundary& boundary, int edge, int layers) {

@@ -87,9 +87,14 @@ class HeldContact {
                                 double touch) noexcept;
   /// Box of the boundary in the batch. @param reach beside the farthest candidate [m]
   void look_around(std::span<const StepContext> steps, double reach) noexcept;
+  /// That box on the first profile of the ground.
+  [[nodiscard]] const Box& around() const noexcept { return around_.front(); }
+  /// Whether a corner is above or below that box.
+  [[nodiscard]] bool is_beside_corner() const noexcept;
   /// The edge's nodes, and those of as many edges beside it, are in nodes().
   void want(const contact::Boundary& boundary, int edge, int layers);
   void forget_nodes() noexcept;
+  [[nodiscard]] bool has_corner_around(double wider) const noexcept;
   [[nodiscard]] Vec3 reference_at(std::size_t candidate) const noexcept {
     return {boundary_.reference[candidate],
             boundary_.solid ? boundary_.solid->axial[candidate] : 0.0};
@@ -103,7 +108,9 @@ class HeldContact {
   int batches_left_ = 0;       ///< that need no look where no corner is nearer
   bool looked_ = false;        ///< at the boundary, for this batch
   double way_ = 0.0;           ///< way that a candidate may come from there               [m]
-  Box around_{};               ///< box that holds the boundary in the batch, way_ beside it [m]
+  std::vector<Box> around_;    ///< (profiles) box that holds the boundary in the batch, way_
+                               ///< beside it                                              [m]
+  double bend_reach_ = 0.0;    ///< largest of the profiles                                 [m]
   std::vector<int> nodes_;     ///< nodes of the near edges and their neighbours
   std::vector<char> wanted_;   ///< (nb) is in nodes_
   std::vector<char> is_held_;  ///< (nb)

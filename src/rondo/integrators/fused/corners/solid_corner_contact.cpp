@@ -15,9 +15,9 @@ namespace rondo::dynamics {
 SolidCornerContact::SolidCornerContact(const Model& model)
     : HeldContact(model), solver_(boundary_), ground_(model.motion.camber) {}
 
-Vec2 SolidCornerContact::place_of(const FrameStep& frame, std::size_t candidate) const noexcept {
+Vec3 SolidCornerContact::place_of(const FrameStep& frame, std::size_t candidate) const noexcept {
   const Vec3 arm = reference_at(candidate) + state_.u.space()[candidate];
-  return on_profile(*boundary_.contact, frame.center + ground_.from_wheel(frame.rotation * arm));
+  return frame.center + ground_.from_wheel(frame.rotation * arm);
 }
 
 /// Way of a point of the boundary that does not deform, at the most                          [m]
@@ -43,9 +43,9 @@ void SolidCornerContact::look_out(std::span<StepContext> steps,
   CornerFinder& finder = solver_.finder();
   const double reach = reach_of(steps.size(), fields, finder.deepest());
   look_around(steps, reach);
-  if (!boundary_.contact->ground.corners(around_.low.x, around_.high.x).empty()) {
+  if (is_beside_corner()) {
     for (std::size_t k = 0; k < boundary_.n_nodes(); ++k)
-      finder.places()[k] = place_of(steps.front().frame, k);
+      finder.set_place(static_cast<int>(k), place_of(steps.front().frame, k));
     finder.find_near(reach + travel(steps), near_);
     // A touch is judged by an edge's neighbours too, and a touch of the neighbour by its own.
     for (const CornerFinder::Near& near : near_) want(finder.edges().boundary, near.edge, 2);
@@ -68,9 +68,8 @@ void SolidCornerContact::find(const StepContext& step, const CandidateFields& fi
   CornerFinder& finder = solver_.finder();
   for (const int node : nodes_) {
     state_.u.space()[at(node)] = fields.motion_of(at(node)).u;
-    finder.places()[at(node)] = on_profile(
-        *boundary_.contact,
-        place_in_space(*step.solid_contact, reference_at(at(node)) + state_.u.space()[at(node)]));
+    finder.set_place(node, place_in_space(*step.solid_contact,
+                                          reference_at(at(node)) + state_.u.space()[at(node)]));
   }
   for (const CornerRow& row : solver_.find(near_))
     for (int i = 0; i < row.count; ++i) hold(step, fields, at(row.node[at(i)]));

@@ -29,7 +29,7 @@ class SolidCornerContact final : public HeldContact {
     Vec3 free{};                ///< v_{n+3/2} without impulse                        [m/s]
   };
   [[nodiscard]] double travel(std::span<const StepContext> steps) const noexcept;
-  [[nodiscard]] Vec2 place_of(const FrameStep& frame, std::size_t candidate) const noexcept;
+  [[nodiscard]] Vec3 place_of(const FrameStep& frame, std::size_t candidate) const noexcept;
   void hold(const StepContext& step, const CandidateFields& fields, std::size_t candidate);
   void release() noexcept;
   void keep_impulses();
