@@ -27,7 +27,7 @@ for_site=(
 for_development=(
   libgtest-dev python3-pytest python3-pip python3-venv patch python3-jsonschema # tests
   python3-yaml man-db mandoc libxml2-utils           # tests: the citation, pages of man, XML of FMUs
-  python3-pandas python3-xarray python3-scipy        # what results and matrices may be handed to, optional
+  python3-pandas python3-xarray python3-scipy        # what results, matrices and fits may use, optional
   gmsh                                               # makes cases/meshes and tests/meshes
   clang-format clang-tidy cppcheck mypy reuse        # scripts/lint.sh; mypy: tests/python too
   clang libclang-rt-14-dev llvm-14 libomp-dev        # the other compiler, sanitizers, scripts/fuzz.sh

@@ -8,7 +8,7 @@ while_loading()  # of python3 -m rondo
 demand("numpy", "h5py")  # before anything imports them
 
 # ruff: noqa: E402
-from . import files
+from . import axes, files, magic_formula
 from .about import about
 from .calls import fmu, modes, pod, reduce, run, sweep
 from .data.errors import (
@@ -41,8 +41,8 @@ __version__ = "0.2.0"
 attach()
 del attach, demand, while_loading
 
-__all__ = ["Error", "FileError", "Heat", "History", "InputError", "Mesh", "Modes", "NewerSchemaError",
-           "NotARunError", "NumericalError", "Paper", "Pod", "ReducedWheel", "Run", "Simulation",
-           "Solution", "Sweep", "UnfinishedRunError", "UnknownNameError", "Validation", "about", "crush",
-           "files", "fmu", "modes", "open", "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation",
+__all__ = ["Error", "FileError", "Heat", "History", "InputError", "Mesh", "Modes", "NewerSchemaError", "NotARunError",
+           "NumericalError", "Paper", "Pod", "ReducedWheel", "Run", "Simulation", "Solution", "Sweep",
+           "UnfinishedRunError", "UnknownNameError", "Validation", "about", "axes", "crush", "files", "fmu",
+           "magic_formula", "modes", "open", "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation",
            "pod", "reduce", "report", "run", "solve", "steady_rolling", "sweep"]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Road files of ASAM OpenCRG, read by the library: rondo.files.read_crg("road.crg") (docs/roads.md)."""
+"""Files that others write and read: roads of ASAM OpenCRG, read by the library (read_crg, docs/roads.md);
+measurements of tyres in TYDEX and parameters of tyre models in .tir (docs/tyre-files.md)."""
 from __future__ import annotations
 
 import os
@@ -12,10 +13,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .data.errors import InputError
+from .data.tir import Tir, read_tir, tir, write_tir
+from .data.tydex import Channel, Constant, Tydex, tydex, write_tydex
+from .data.tydex_reading import read_tydex
 from .native import core, place_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+__all__ = ["BORDERS", "Channel", "Constant", "Road", "Slopes", "Tir", "Tydex", "read_crg", "read_tir", "read_tydex",
+           "tir", "tydex", "write_tir", "write_tydex"]
 
 Array = NDArray[np.float64]
 

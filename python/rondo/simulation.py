@@ -18,6 +18,7 @@ from .data.errors import Error, InputError, NumericalError, UnknownNameError, un
 from .data.history import History, units_of
 from .data.html import table
 from .data.mesh import Mesh
+from .data.solid import outer_radius_of, rolling_wheel
 from .data.names import find_name
 from .matrices import Matrices, matrices_of
 from .native import Place, core, documented, options_in, pairs_of, place_of, settings_of, whole_number
@@ -259,10 +260,16 @@ class Simulation:
         columns: list[Mapping[str, Any]] = [{"name": name, "unit": unit}
                                             for name, unit in self.units.items()]
         rows = self._steps.rows()
+        history: History
         if rows is None:
             assert self.directory is not None
-            return History(self.directory / "history.csv", ground=self._ground, columns=columns)
-        return RowsInMemory("simulation", self._names, rows, columns, ground=self._ground)
+            history = History(self.directory / "history.csv", ground=self._ground, columns=columns)
+        else:
+            history = RowsInMemory("simulation", self._names, rows, columns, ground=self._ground)
+        if self.mesh.is_solid:
+            case = self.case
+            history.wheel = rolling_wheel(case, outer_radius_of(case, self.mesh))
+        return history
 
     @property
     def mesh(self) -> Mesh:

@@ -13,6 +13,7 @@ from .data.errors import Error, NumericalError
 from .data.history import History
 from .data.html import table
 from .data.mesh import Mesh
+from .data.solid import RollingWheel, outer_radius_of
 from .native import Place, core, documented, options_in, place_of, settings_of
 from .simulation import RowsInMemory
 
@@ -44,6 +45,10 @@ class Solution:
             "solution", [name for name, _ in found["columns"]], found["rows"], columns,
             crush=self.analysis == "crush", ground=self.contact_force is not None,
             instants=self.analysis == "steady-rolling")
+        if self.mesh.is_solid and "steady" in self.info:
+            steady = self.info["steady"]
+            self.history.wheel = RollingWheel(steady["camber"], steady["turn_slip"], outer_radius_of({}, self.mesh),
+                                              steady["speed"] < 0)
 
     @property
     def title(self) -> str:

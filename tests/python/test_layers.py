@@ -15,10 +15,10 @@ ALLOWED = {  # by the first folder, or the module itself: what it may import bes
     "native": {"data", "options", "studies"}, "options": set(), "about": {"data", "native", "studies"},
     "_core": set(), "matrices": {"_core", "data"},
     "simulation": {"_core", "data", "matrices", "native"}, "solution": {"data", "native", "simulation"},
-    "files": {"_core", "data", "native"},
+    "files": {"_core", "data", "native"}, "axes": {"data"}, "magic_formula": {"data"},
     "calls": {"data", "native", "studies"}, "reduced_wheel": {"calls", "data", "native", "simulation"},
-    "__init__": {"about", "calls", "data", "files", "pictures", "interrupts", "needs", "reduced_wheel", "simulation",
-                 "solution"},
+    "__init__": {"about", "axes", "calls", "data", "files", "magic_formula", "pictures", "interrupts", "needs",
+                 "reduced_wheel", "simulation", "solution"},
     "command_help": set(), "interrupts": {"needs"}, "needs": set(),
     "__main__": {"__init__", "about", "command_help", "interrupts", "needs", "data", "studies", "figures", "reports", "style"},
 }

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .axes import Quantities, convert, own
 from .errors import Error, unknown
 from .files import read_table
 from .html import history_html
@@ -17,6 +18,8 @@ from .tables import frame_of
 
 if TYPE_CHECKING:
     import pandas
+
+    from .solid import RollingWheel
 
 FORCES = ("force_x", "force_y", "force_lateral", "torque", "moment_aligning",
           "moment_overturning")  # of the ground on the body
@@ -41,7 +44,11 @@ def units_of(names: Iterable[str], columns: Sequence[Mapping[str, Any]]) -> dict
 
 
 class History(Mapping[str, np.ndarray]):
-    """history["force_y"]: array (rows,); history.units["force_y"]: its unit."""
+    """history["force_y"]: array (rows,); history.units["force_y"]: its unit.
+
+    wheel: what its axes are, of the motion of a wheel in three dimensions; else None."""
+
+    wheel: RollingWheel | None = None
 
     def __init__(self, path: pathlib.Path, crush: bool = False, ground: bool = True,
                  columns: Sequence[Mapping[str, Any]] = (), instants: bool = False) -> None:
@@ -147,3 +154,26 @@ class History(Mapping[str, np.ndarray]):
         time = self[TIME]
         spans = np.ones(len(time)) if self.instants else np.diff(time, prepend=0.0)
         return float(np.average(self[name][chosen], weights=spans[chosen]))
+
+    def in_axes(self, system: str, effective_radius: float | None = None) -> Quantities:
+        """Forces and moments of the ground on a wheel in three dimensions, slip angle, camber and slip ratio
+        as arrays (rows,) in the axes and signs of a system: "iso-w", "tydex-h", "tydex-c", "sae",
+        "adapted-sae" or "rondo" (docs/conventions.md). Moments are reduced with the height of the center at
+        the end of each row. effective_radius [m], V / w of free rolling: that of the slip ratio; None: the
+        slip ratio has the outer radius, as the column. An error of other bodies, and of rolling backwards."""
+        if "force_lateral" not in self:
+            raise Error(f"{self.path}: no wheel in three dimensions on a ground: other bodies have no axes beside "
+                        "rondo's own; use the columns as they are")
+        wheel = self.wheel
+        if wheel is None:
+            raise Error(f"{self.path}: axes are of wheels that roll, and this history does not say how the wheel "
+                        "stands: it is a crush, or was solved into memory; write the run with rondo.run and open its "
+                        "directory")
+        if wheel.backwards:
+            raise Error(f"{self.path}: the wheel rolls backwards, for which the systems define their signs "
+                        "differently: run the mirror image, with speed and angular_velocity > 0")
+        columns = ("force_x", "force_y", "force_lateral", "moment_aligning", "moment_overturning", "torque",
+                   "slip_angle", "slip_ratio")
+        found = own(**{name: self[name] for name in columns}, height=self["center_y_m"], camber=wheel.camber,
+                    turn_slip=wheel.turn_slip, time=np.asarray(self[TIME], dtype=float))
+        return convert(found, system, effective_radius, None if effective_radius is None else wheel.radius)

@@ -26,7 +26,7 @@ from .names import frame_named
 from .pod import Pod, Pods
 from .rigid import Rigid, rigid_motion
 from .section import Section, section_of
-from .solid import ground_axes, turned_about_axle
+from .solid import ground_axes, outer_radius_of, rolling_wheel, turned_about_axle
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -190,9 +190,7 @@ class Run:
     @property
     def outer_radius(self) -> float:
         """R_o of a disk [m]; of a mesh from a file its largest distance from the origin."""
-        if "disk" not in self.case:
-            return float(np.linalg.norm(self.mesh.coordinates[:, :2], axis=1).max())
-        return float(self.case["disk"]["outer_radius"])
+        return outer_radius_of(self.case, self.mesh)
 
     @property
     def inner_radius(self) -> float:
@@ -414,6 +412,8 @@ class Run:
                       self.info.get("equilibria") if self.is_inflation else None)
             history.check_end(None if self.is_crush else self.info.get("end_time"),
                               None if solved is None else solved + 1)
+        if self.is_solid and not (self.is_crush or self.is_inflation):
+            history.wheel = rolling_wheel(self.case, self.outer_radius)
         return history
 
     @cached_property

@@ -3,6 +3,8 @@
 (docs/wheel3d.md)."""
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -46,3 +48,32 @@ def turned_about_axle(vectors: Array, angle: float) -> Array:
     cos, sin = np.cos(angle), np.sin(angle)
     x, y, z = vectors[:, 0], vectors[:, 1], vectors[:, 2]
     return np.stack([cos * x - sin * y, sin * x + cos * y, z], axis=1)
+
+
+@dataclass(frozen=True)
+class RollingWheel:
+    """What the axes of a history depend on beside its columns."""
+
+    camber: float     # rad, > 0 leans the top to the left
+    turn_slip: float  # 1/m, > 0 turns to the left
+    radius: float     # m, outer radius, of the slip ratio
+    backwards: bool   # it rolls backwards
+
+
+def rolling_wheel(case: Mapping[str, Any], radius: float) -> RollingWheel:
+    """Of the case of a wheel in three dimensions; radius: its outer radius [m]."""
+    motion = case["motion"]
+    backwards = any(_below_zero(motion.get(key, 0.0)) for key in ("speed", "angular_velocity"))
+    return RollingWheel(float(motion.get("camber", 0.0)), float(motion.get("turn_slip", 0.0)), radius, backwards)
+
+
+def outer_radius_of(case: Mapping[str, Any], mesh: Mesh) -> float:
+    """R_o of a disk [m]; of a mesh from a file its largest distance from the axle."""
+    if "disk" in case:
+        return float(case["disk"]["outer_radius"])
+    return float(np.linalg.norm(mesh.coordinates[:, :2], axis=1).max())
+
+
+def _below_zero(value: Any) -> bool:
+    """Of a number, or of a table over time at any time."""
+    return any(row[1] < 0 for row in value) if isinstance(value, list) else float(value) < 0
