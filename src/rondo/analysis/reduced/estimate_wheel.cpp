@@ -32,15 +32,15 @@ std::optional<Means> means_of(const Case& c, const RunOptions& options) {
   PreparedWheel wheel;
   prepare_wheel(c, options, {}, setup, wheel);
   const dynamics::Model& model = setup.model;
-  rom::WheelRun run(
-      model, *wheel.ring, wheel.model, wheel.figures,
-      dynamics::start(model, setup.displacement, setup.velocity, setup.half_velocity));
+  const dynamics::State start =
+      dynamics::start(model, setup.displacement, setup.velocity, setup.half_velocity);
+  const std::unique_ptr<dynamics::Integrator> run = make_steps(setup, wheel, start);
   Means sum;
   double counted = 0.0;
   std::array<dynamics::StepReport, 1> report;
   for (long long k = 1; k <= setup.n_steps; ++k) {
     if (options.stop && options.stop->load()) return {};
-    run.advance(report);
+    run->advance(report);
     if (static_cast<double>(k) <= window * static_cast<double>(setup.n_steps)) continue;
     sum.x += report[0].contact.impulse.x / model.dt;
     sum.y += report[0].contact.impulse.y / model.dt;

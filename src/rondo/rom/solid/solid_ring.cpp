@@ -356,20 +356,25 @@ RingResidual solid_residual(const SolidRing& ring, std::span<const RingHarmonic>
   return out;
 }
 
-MatrixXcd solid_fields(const SolidRing& ring, std::span<const RingHarmonic> harmonics, double spin,
-                       const MatrixXcd& forces) {
+SolidFields::SolidFields(const SolidRing& ring, std::span<const RingHarmonic> harmonics,
+                         double spin)
+    : ring_(ring), spin_(spin) {
   const Stiffness stiffness(ring);
-  const std::vector<Index> rows = contact_rows(ring);
-  MatrixXcd out(ring.n_rows(), forces.cols());
-#pragma omp parallel for num_threads(ring.threads) schedule(dynamic)
-  for (int k = 0; k < static_cast<int>(forces.cols()); ++k) {
+  for (int k = 0; k <= ring.n_sectors() / 2; ++k) {
     bool is_static = false;
-    const Dynamic z =
-        dynamic_of(ring, stiffness.at_harmonic(k), find_harmonic(harmonics, k), k, spin, is_static);
-    MatrixXcd all = MatrixXcd::Zero(ring.n_rows(), 1);
-    for (std::size_t c = 0; c < rows.size(); ++c)
-      all(rows[c], 0) = forces(static_cast<Index>(c), k);
-    out.col(k) = z.beyond(all);
+    const auto z = std::make_shared<Dynamic>(dynamic_of(
+        ring, stiffness.at_harmonic(k), find_harmonic(harmonics, k), k, spin, is_static));
+    beyond_.emplace_back([z](const VectorXcd& forces) -> VectorXcd { return z->beyond(forces); });
+  }
+}
+
+MatrixXcd SolidFields::operator()(const MatrixXcd& forces) const {
+  const std::vector<Index> rows = contact_rows(ring_);
+  MatrixXcd out(ring_.n_rows(), forces.cols());
+  VectorXcd all = VectorXcd::Zero(ring_.n_rows());
+  for (Index k = 0; k < forces.cols(); ++k) {
+    for (std::size_t c = 0; c < rows.size(); ++c) all[rows[c]] = forces(static_cast<Index>(c), k);
+    out.col(k) = beyond_[at(k)](all);
   }
   return out;
 }

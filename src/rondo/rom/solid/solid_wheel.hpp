@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 #include <array>
 #include <complex>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -274,6 +275,7 @@ class SolidWheel {
   std::vector<double> tables_;    ///< (N, 3C, 3C) G at a spin between those of the model [m/N]
   Eigen::VectorXd centrifugal_;   ///< (rows) of the spin at its end                       [m]
   double residual_before_ = 0.0;  ///< energy at its start by the spin of the step before  [J]
+  mutable std::unique_ptr<SolidFields> field_;  ///< at the spin of the last one that was asked for
   std::vector<Modes> modes_;
   std::vector<Memory> memory_;  ///< (N C)
   GroundForces last_;           ///< at the end of the last step

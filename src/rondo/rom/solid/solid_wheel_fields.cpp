@@ -169,7 +169,9 @@ void SolidWheel::write_field(double angle, const Eigen::VectorXd& constant,
           back * Eigen::Vector3d(force.x, force.y, force.z);
     }
   }
-  Matrix amplitude = solid_fields(ring_, harmonics_, spin_, forces);
+  if (!field_ || field_->spin() != spin_)
+    field_ = std::make_unique<SolidFields>(ring_, harmonics_, spin_);
+  Matrix amplitude = (*field_)(forces);
   const Complex frame = rotation(angle);
   Complex wave{1.0, 0.0};
   int reached = 0;

@@ -194,8 +194,17 @@ void finish(const ReduceRequest& r, const Case& c, const Setup& setup, const Pre
   report.file_bytes = std::filesystem::file_size(r.output, error);
 }
 
+/// A wheel with a width has its modes in seconds, and no file for them.
+void refuse_width(const Case& c) {
+  if (!c.section && !c.wheel.width) return;
+  throw case_error(c, c.section ? "section" : "disk.width",
+                   "the modes of a wheel in three dimensions are not kept in a file",
+                   "rondo run CASE.toml --reduced, which finds them in seconds");
+}
+
 void reduce_case(const ReduceRequest& r, ReduceReport& report) {
   const Case c = read_case(r.sources.front(), r.settings);
+  refuse_width(c);
   if (c.analysis.kind != AnalysisKind::dynamic)
     throw case_error(c, "analysis.kind", "a reduced wheel moves in time",
                      "\"dynamic\"; or run this case, and rondo reduce RESULTS --basis pod");
@@ -212,6 +221,7 @@ void reduce_runs(const ReduceRequest& r, ReduceReport& report) {
   const PodRequest pod = pod_request(r);
   const std::vector<io::RunReader> runs = open_runs(pod, snapshot_choice_of(pod));
   const Case c = case_of(runs);
+  refuse_width(c);
   Setup setup = build(c, 1, nullptr, Steps::of_reduced_wheel);
   PreparedWheel wheel;
   begin_wheel(c, {}, {}, setup, wheel);
