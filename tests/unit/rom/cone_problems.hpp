@@ -10,10 +10,8 @@
 
 #include "rondo/contact/cone.hpp"
 #include "rondo/core/index.hpp"
-#include "rondo/fem/contact_mass.hpp"
 #include "rondo/rom/solid/cone_law.hpp"
 #include "rondo/rom/solid/solid_ring.hpp"
-#include "support/solid_wheel.hpp"
 
 namespace rondo::rom::cone_problems {
 
@@ -131,31 +129,12 @@ inline Problem random_problem(unsigned seed, const Choice& choice) {
     if (choice.rim)
       for (std::size_t k = 0; k < 3; ++k) {
         c.lift[k] = vec(1e-6);
-        c.reply[k] = vec(1e-2);
+        c.reply[k] = 1e5 * c.lift[k] + vec(1e-2);  // a rim that a force lifts goes its way
       }
     p.contacts.push_back(c);
   }
   return p;
 }
-
-/// The box wheel of docs/wheel3d.md in fewer sectors, whose contact nodes have no mass.
-struct BoxWheel {
-  mesh::Mesh mesh;
-  dynamics::Model model;
-  SolidRing ring;
-
-  explicit BoxWheel(int around = 120)
-      : mesh(mesh::make_wheel(test::box_wheel(2, 4, around))),
-        model(test::cornering_model(mesh, {})),
-        ring(make_solid_ring(model.solid->sector, mass_moved(), model.reference, model.solid->axial,
-                             model.contact->nodes)) {}
-
- private:
-  const std::vector<double>& mass_moved() {
-    model.mass = fem::move_contact_mass(mesh, model.mass, mesh.boundary).mass;
-    return model.mass;
-  }
-};
 
 /// The wheel without modes, pressed 8 mm onto flat ground and dragged along it by 1 mm, at an
 /// angle: what a step has to solve.
