@@ -10,7 +10,7 @@ namespace {
 using Eigen::Matrix3d, Eigen::Vector2d, Eigen::Vector3d;
 
 constexpr int most_directions = 30;  ///< of sliding
-constexpr double least_turn = 1e-5;  ///< the turn after it is its square
+constexpr double least_turn = 1e-5;  ///< what is left then is its square
 
 /// The direction in which a contact begins to slide.
 Vector2d first_direction(const ConeLocal& c, const Vector3d& free) noexcept {
@@ -24,12 +24,12 @@ Vector2d first_direction(const ConeLocal& c, const Vector3d& free) noexcept {
 Vector3d slide(const Matrix3d& a, double mu, const Vector3d& free, Vector2d e) noexcept {
   for (int turn = 0; turn < most_directions; ++turn) {
     const double stiff = a(0, 0) + mu * (a(0, 1) * e[0] + a(0, 2) * e[1]);
-    const double normal = -free[0] / stiff;
+    const double softness = 1.0 / stiff, normal = -free[0] * softness;
     const Vector2d reached = a.block<2, 1>(1, 0) + mu * (a.block<2, 2>(1, 1) * e);
     const Vector2d slip = free.tail<2>() + normal * reached;
     const Vector2d across(-e[1], e[0]);
     const double off = e[0] * slip[1] - e[1] * slip[0];  // 0: along e
-    const double by_normal = -normal * mu * (a(0, 1) * across[0] + a(0, 2) * across[1]) / stiff;
+    const double by_normal = -normal * mu * (a(0, 1) * across[0] + a(0, 2) * across[1]) * softness;
     const Vector2d slip_by = by_normal * reached + normal * mu * (a.block<2, 2>(1, 1) * across);
     const double slope =
         across[0] * slip[1] - across[1] * slip[0] + e[0] * slip_by[1] - e[1] * slip_by[0];

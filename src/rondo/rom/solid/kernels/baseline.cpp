@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+namespace {
+constexpr int register_bytes = 16;
+}  // namespace
+
 #include "rondo/rom/solid/kernels/products.hpp"
 
 namespace rondo::rom::kernels {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Products of the law of contact in space (../cone_law.hpp), compiled once for each
 /// instruction set. Plain pointers and numbers only. All levels give the same bits: sums have the
-/// same sixteen lanes everywhere, and no product is fused with a sum.
+/// same lanes everywhere, and no product is fused with a sum.
 #pragma once
 #include <cstddef>
 
 namespace rondo::rom::kernels {
 
 /// Rows and vectors of single numbers have a multiple of these.
-constexpr std::ptrdiff_t cone_lanes = 16;
+constexpr std::ptrdiff_t cone_lanes = 32;
 
 struct ConeTable {
   const char* name;
