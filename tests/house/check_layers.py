@@ -42,7 +42,9 @@ ALLOWED = {
     "pod": {"core", "mesh"},
     "rom/wheel": {"core", "mesh", "fem", "contact", "contact/coupled", "modal", "model",
                   "statics"},
-    "rom": SOLIDS | {"model", "integrators", "integrators/fused", "pod", "rom/wheel"},
+    "rom/solid": SOLIDS | {"modal", "model", "statics", "integrators/fused", "rom/wheel"},
+    "rom": SOLIDS | {"modal", "model", "integrators", "integrators/fused", "pod", "rom/wheel",
+                     "rom/solid"},
     "case": SOLIDS | {"model"},
     "io/h5": {"core"},
 }

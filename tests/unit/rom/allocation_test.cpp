@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "rolling_box.hpp"
 #include "rolling_wheel.hpp"
 #include "rondo/contact/friction_table.hpp"
 #include "support/allocations.hpp"
@@ -52,5 +53,19 @@ INSTANTIATE_TEST_SUITE_P(Wheels, Steps,
                                   (std::get<2>(info.param) ? "_viscous" : "") +
                                   (std::get<3>(info.param) ? "_table_of_friction" : "");
                          });
+
+TEST(SolidSteps, AllocateNothing) {
+  const rolling_box::RollingBox rolling;
+  SolidWheel wheel = rolling.wheel();
+  wheel.start(rolling_box::RollingBox::motion(-1));
+  std::size_t contacts = 0;
+  long before = 0;
+  for (int n = 0; n < 90; ++n) {
+    if (n == 60) before = test::allocations();
+    contacts = wheel.step(rolling_box::RollingBox::motion(n)).contacts.size();
+  }
+  EXPECT_EQ(test::allocations() - before, 0);
+  EXPECT_GT(contacts, 10U);
+}
 
 }  // namespace rondo::rom::rolling_wheel

@@ -174,7 +174,7 @@ void SolidWheel::make_window() {
   if (n_window_ <= n_made_) return;
   n_made_ = std::min(n_window_ + spare_sectors, ring_.n_sectors());
   const Index size = ring_.n_contact();
-  window_.resize(size * n_made_);
+  window_.resize(size, n_made_);
   const double share = 1.0 - filter();
   Eigen::MatrixXd block(size, size);
   for (int lag = 1 - n_made_; lag < n_made_; ++lag) {
@@ -185,11 +185,8 @@ void SolidWheel::make_window() {
               .turn[at(static_cast<long long>(harmonics_[h].k) * wrapped(lag) % ring_.n_sectors())];
       block += turn.re * modes_[h].answer.real() - turn.im * modes_[h].answer.imag();
     }
-    for (int to = std::max(0, lag); to < std::min(n_made_, n_made_ + lag); ++to)
-      for (Index c = 0; c < size; ++c)
-        std::copy_n(block.col(c).data(), size, window_.column((to - lag) * size + c) + to * size);
+    window_.set(lag, block);
   }
-  window_.round();
 }
 
 /// The modes at the end of the step without new forces.
