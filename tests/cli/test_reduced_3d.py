@@ -106,6 +106,24 @@ class Reduced(ProgramTest):
         for begin, end in ((0.04, 0.06), (0.08, 0.1), (0.12, 0.14)):
             self.close(reduced, whole, begin, 0.007, end=end)
 
+    def test_a_cleat_and_a_road_are_those_of_the_full_run(self):
+        """Means over two passes of a sector, in shares of the largest vertical force."""
+        cleat = ("ground.profile=\"flat\"", "ground.obstacle=[{kind = \"cleat\", at = 0.3, height = 0.01, "
+                 "length = 0.04, angle = 0.5235987755982988, fillet = 0.02}]", "time.end=0.08")
+        road = ("ground.restitution=0", "time.end=0.15")
+        for case, given, bound in ((ROOT / "cases" / "wheel3d-cleat.toml", cleat, 0.012),
+                                   (ROOT / "cases" / "wheel3d-cobbles.toml", road, 0.02)):
+            given = FEW, "output.history_interval=0", *given
+            reduced, whole = (self.results("bumps", case, *given, reduced=is_reduced)[0]
+                              for is_reduced in (True, False))
+            ends = np.arange(0.02, reduced["time_s"][-1], 0.004)
+            most = max(self.mean(whole, "force_y", end - 0.004, end) for end in ends)
+            for name in FORCES:
+                off = [self.mean(reduced, name, end - 0.004, end) - self.mean(whole, name, end - 0.004, end)
+                       for end in ends]
+                self.assertLess(np.abs(off).max(), 4 * bound * most, name)
+                self.assertLess(np.sqrt(np.mean(np.square(off))), bound * most, name)
+
     def test_a_wheel_that_stands_or_slides(self):
         for given in (["motion.angular_velocity=0", "motion.speed=0"], ["motion.angular_velocity=0", "motion.speed=5"]):
             reduced, whole = (self.results("stands", CORNERING, FEW, *given, reduced=is_reduced)[0]

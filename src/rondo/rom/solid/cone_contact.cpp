@@ -70,6 +70,7 @@ Vector3d solve_following(const ConeFriction& friction, std::size_t number, ConeL
     return mu - friction(number, (free + c.own * force).tail<2>().norm(), force[0]);
   };
   double low = c.friction, at_low = beyond(low), high = low, at_high = at_low;
+  if (std::abs(at_low) <= settled) return force;
   for (int turn = 0; turn < most_coefficients && at_high < 0.0; ++turn) {
     low = high, at_low = at_high;
     high -= 2.0 * at_high;
