@@ -108,8 +108,8 @@ class Reduced(ProgramTest):
 
     def test_a_cleat_and_a_road_are_those_of_the_full_run(self):
         """Means over two passes of a sector, in shares of the largest vertical force."""
-        cleat = ("ground.profile=\"flat\"", "ground.obstacle=[{kind = \"cleat\", at = 0.3, height = 0.01, "
-                 "length = 0.04, angle = 0.5235987755982988, fillet = 0.02}]", "time.end=0.08")
+        cleat = ("ground.profile=\"flat\"", "ground.obstacle=[{kind = \"cleat\", at = 0.3, height = 0.016, "
+                 "length = 0.06, angle = 0.5235987755982988, fillet = 0.016}]", "time.end=0.08")
         road = ("ground.restitution=0", "time.end=0.15")
         for case, given, bound in ((ROOT / "cases" / "wheel3d-cleat.toml", cleat, 0.012),
                                    (ROOT / "cases" / "wheel3d-cobbles.toml", road, 0.02)):
