@@ -26,6 +26,8 @@ constexpr double beyond_whole = 0.618;     ///< so that nodes are seen at all th
 constexpr double steps_in_contact = 20.0;  ///< while a node passes it
 constexpr int few_modes_of_mesh = 20;
 constexpr int most_modes = 40, most_modes_of_tread = 90, fewest_modes = 10;
+/// Of a wheel in three dimensions where the ground is not flat.
+constexpr int most_modes_on_bumps = 200;
 constexpr double highest_mode = 1.5;      ///< ω Δt of the modes that are taken
 constexpr double speed_from_rest = 60.0;  ///< that a wheel from rest may come to         [m/s]
 constexpr double late_share = 0.01;       ///< steps whose friction is late: more are told
@@ -123,7 +125,11 @@ rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
   }
   const bool tread = setup.model.sector && !setup.model.solid &&
                      setup.mesh.boundary.size() > static_cast<std::size_t>(setup.mesh.n_sectors);
-  return {.wanted = tread ? most_modes_of_tread : most_modes,
+  const dynamics::ContactModel& contact = *setup.model.contact;
+  const bool bumps = setup.model.solid && (contact.space || !contact.ground.bends().empty());
+  return {.wanted = bumps   ? most_modes_on_bumps
+                    : tread ? most_modes_of_tread
+                            : most_modes,
           .highest = highest_mode / setup.model.dt,
           .fewest = fewest_modes};
 }

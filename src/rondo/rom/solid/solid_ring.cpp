@@ -280,7 +280,7 @@ std::vector<RingHarmonic> solid_modes(const SolidRing& ring, const ModeChoice& c
   const int at_least = std::max(choice.wanted, choice.fewest);
   std::vector<RingHarmonic> found(at(n_harmonics));
   if (at_least == 0) return {};
-  Index each = std::min<Index>(ring.n_rows(), 2 + at_least / 4);
+  Index each = std::min<Index>(ring.n_rows(), 3 + 3 * at_least / ring.n_sectors());
   for (;;) {
 #pragma omp parallel for num_threads(ring.threads) schedule(dynamic)
     for (int k = 0; k < n_harmonics; ++k)
