@@ -178,9 +178,13 @@ long long DynamicAnalysis::next_snapshot() const noexcept {
 /// Takes the initial fields of the setup, which are not needed twice.
 Progress DynamicAnalysis::begin(Recorder& recorder) {
   history_.emplace(case_, setup_, from_ ? from_->history : HistoryPlace{});
-  bounds_ = {energy_residual_bound(setup_), largest_strain_energy(setup_),
-             impact_cure(setup_.model), guards_impacts(),
-             unit_of("J/m", setup_.model.solid.has_value()), contact_bound()};
+  bounds_ = {energy_residual_bound(setup_),
+             largest_strain_energy(setup_),
+             impact_cure(setup_.model),
+             guards_impacts(),
+             unit_of("J/m", setup_.model.solid.has_value()),
+             contact_bound(),
+             contact_cure()};
   watch_.emplace(case_, setup_);
   between_nodes_.emplace(setup_.model);
   if (history_->needs_boundary()) boundary_state_ = dynamics::boundary_state(setup_.model);

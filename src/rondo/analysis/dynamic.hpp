@@ -63,6 +63,8 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   [[nodiscard]] virtual bool guards_impacts() const noexcept { return true; }
   /// Largest relative residual of the law of contact.
   [[nodiscard]] virtual double contact_bound() const noexcept { return residual_bound; }
+  /// What to try where it is larger, after "; "; empty: nothing.
+  [[nodiscard]] virtual std::string_view contact_cure() const noexcept { return {}; }
   /// Which step it makes, in words.
   [[nodiscard]] virtual std::string told_integrator() const;
   /// While it runs, or at its end.

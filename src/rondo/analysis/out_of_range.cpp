@@ -222,7 +222,8 @@ OutOfBound find_out_of_bound(const dynamics::Balance& b, const ContactStatistics
   if (bounds.guards_impacts && impact_gain(b) > impact_gain_bound)
     return {created_by_impacts(b, impact_gain_bound, bounds), true};
   if (!(contact.residual <= bounds.contact))
-    return {fmt::format("contact residual {:.3g}, bound {:.0e}", contact.residual, bounds.contact),
+    return {fmt::format("contact residual {:.3g}, bound {:.0e}{}", contact.residual, bounds.contact,
+                        bounds.contact_cure),
             false};
   return {};
 }

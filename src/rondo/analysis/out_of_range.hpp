@@ -7,8 +7,8 @@
 
 #include "rondo/analysis/build/crush/crush_setup.hpp"
 #include "rondo/case/setup.hpp"
-#include "rondo/output/run_options.hpp"
 #include "rondo/output/contact_statistics.hpp"
+#include "rondo/output/run_options.hpp"
 
 namespace rondo::study {
 
@@ -36,6 +36,7 @@ struct Bounds {
   bool guards_impacts = true;  ///< the run ends above impact_gain_bound
   std::string_view energy_unit = "J/m";
   double contact = residual_bound;  ///< residual of the law of contact, relative
+  std::string_view contact_cure{};  ///< what to try where it is larger; empty: nothing
 };
 
 /// Energy that impacts have created, over the energy exchanged: above the first it is spoken of,

@@ -24,6 +24,7 @@ constexpr double least_share = 1e-3;
 struct Means {
   double x = 0.0, y = 0.0;  ///< force of the ground                                     [N/m]
   double friction = 0.0;    ///< power that friction takes                               [W/m]
+  double lateral = 0.0, aligning = 0.0;  ///< in three dimensions                    [N], [N m]
 };
 
 /// None: the run was to stop.
@@ -45,13 +46,17 @@ std::optional<Means> means_of(const Case& c, const RunOptions& options) {
     sum.x += report[0].contact.impulse.x / model.dt;
     sum.y += report[0].contact.impulse.y / model.dt;
     sum.friction += report[0].contact.dissipation_friction / model.dt;
+    sum.lateral += report[0].contact.impulse.z / model.dt;
+    sum.aligning += report[0].contact.moment_aligning / model.dt;
     counted += 1.0;
   }
-  return Means{sum.x / counted, sum.y / counted, sum.friction / counted};
+  return Means{sum.x / counted, sum.y / counted, sum.friction / counted, sum.lateral / counted,
+               sum.aligning / counted};
 }
 
 ForceErrors difference(const Means& of, const Means& from) {
-  ForceErrors e{(of.x - from.x) / from.y, (of.y - from.y) / from.y};
+  ForceErrors e{(of.x - from.x) / from.y, (of.y - from.y) / from.y,
+                (of.lateral - from.lateral) / from.y, (of.aligning - from.aligning) / from.y};
   if (std::abs(from.x) >= least_share * from.y) e.x_of_itself = (of.x - from.x) / std::abs(from.x);
   if (from.friction > 0.0) e.friction_power = (of.friction - from.friction) / from.friction;
   return e;
@@ -61,7 +66,11 @@ ForceErrors difference(const Means& of, const Means& from) {
 
 ForceErrors WheelEstimate::larger() const noexcept {
   const auto most = [](double a, double b) { return std::fmax(std::abs(a), std::abs(b)); };
-  return {most(step.x, modes.x), most(step.y, modes.y), most(step.x_of_itself, modes.x_of_itself),
+  return {most(step.x, modes.x),
+          most(step.y, modes.y),
+          most(step.lateral, modes.lateral),
+          most(step.aligning, modes.aligning),
+          most(step.x_of_itself, modes.x_of_itself),
           most(step.friction_power, modes.friction_power)};
 }
 
@@ -100,11 +109,17 @@ std::string in_words(const WheelEstimate& e) {
     return std::isnan(error) ? std::string("not known") : fmt::format("{:.2g} %", 100.0 * error);
   };
   const ForceErrors most = e.larger();
+  const std::string aside =
+      most.lateral == 0.0 && most.aligning == 0.0
+          ? std::string()
+          : fmt::format(" lateral force {:.2g} % of F_y, aligning moment {:.2g} mm of F_y;",
+                        100.0 * most.lateral, 1e3 * most.aligning);
   return fmt::format(
-      "F_x {:.2g} %, F_y {:.2g} % of F_y; over themselves F_x {}, friction power {} (half the step "
+      "F_x {:.2g} %, F_y {:.2g} % of F_y;{} over themselves F_x {}, friction power {} (half the "
+      "step "
       "changes F_x by {:.2g} %, twice the modes by {:.2g} %)",
-      100.0 * most.x, 100.0 * most.y, percent(most.x_of_itself), percent(most.friction_power),
-      100.0 * std::abs(e.step.x), 100.0 * std::abs(e.modes.x));
+      100.0 * most.x, 100.0 * most.y, aside, percent(most.x_of_itself),
+      percent(most.friction_power), 100.0 * std::abs(e.step.x), 100.0 * std::abs(e.modes.x));
 }
 
 }  // namespace rondo::study

@@ -14,6 +14,7 @@ namespace rondo::study {
 /// over itself.
 struct ForceErrors {
   double x = 0.0, y = 0.0;
+  double lateral = 0.0, aligning = 0.0;  ///< in three dimensions; the moment over F_y is in m
   /// NaN: there is next to none of it, |F_x| below a thousandth of F_y or no friction.
   double x_of_itself = std::numeric_limits<double>::quiet_NaN();
   double friction_power = std::numeric_limits<double>::quiet_NaN();

@@ -40,6 +40,23 @@ double radius_of(const Setup& setup) {
   return radius;
 }
 
+/// How many contact nodes of a wheel with a width come by, one after the other, in a turn: those
+/// of a sector that are beside each other count once.
+double columns_around(const Setup& setup) {
+  std::vector<double> angles;
+  for (const int node : setup.model.contact->nodes) {
+    if (setup.mesh.sector[at(node)] != 0) continue;
+    const Vec2 x = setup.model.reference[at(node)];
+    angles.push_back(std::atan2(x.y, x.x));
+  }
+  std::ranges::sort(angles);
+  const double pitch = 2.0 * std::numbers::pi / setup.mesh.n_sectors;
+  int columns = angles.empty() ? 0 : 1;
+  for (std::size_t i = 1; i < angles.size(); ++i)
+    columns += angles[i] - angles[i - 1] > 1e-3 * pitch ? 1 : 0;
+  return static_cast<double>(columns) * setup.mesh.n_sectors;
+}
+
 /// The spin that torque and ground let the wheel reach is known only afterwards: at least that of
 /// free rolling is expected.
 ExpectedContact expected(const Case& c, bool led, const Setup& setup) {
@@ -56,7 +73,7 @@ ExpectedContact expected(const Case& c, bool led, const Setup& setup) {
   if (!lowers_itself) e.length = 2.0 * std::sqrt(radius * radius - above * above);
   const auto n_nodes = static_cast<double>(setup.model.contact->nodes.size());
   const bool sectors = setup.model.sector || setup.model.solid;
-  const double around = setup.model.solid ? setup.mesh.n_sectors : n_nodes;
+  const double around = setup.model.solid ? columns_around(setup) : n_nodes;
   e.spacing = 2.0 * std::numbers::pi * radius / around;
   if (e.length < e.spacing) e.length = 0.0;  // it may not touch at all
   const double n = sectors ? setup.mesh.n_sectors : n_nodes;
@@ -123,8 +140,10 @@ rom::ModeChoice modes_of(const RunOptions& options, const Setup& setup) {
                           fmt::format("a whole number from 0 to {}", most_modes_of_mesh));
     return {.wanted = static_cast<int>(*options.reduced_modes)};
   }
-  const bool tread = setup.model.sector && !setup.model.solid &&
-                     setup.mesh.boundary.size() > static_cast<std::size_t>(setup.mesh.n_sectors);
+  const bool tread = setup.model.solid
+                         ? columns_around(setup) > setup.mesh.n_sectors
+                         : setup.model.sector && setup.mesh.boundary.size() >
+                                                     static_cast<std::size_t>(setup.mesh.n_sectors);
   const dynamics::ContactModel& contact = *setup.model.contact;
   const bool bumps = setup.model.solid && (contact.space || !contact.ground.bends().empty());
   return {.wanted = bumps   ? most_modes_on_bumps
@@ -176,6 +195,16 @@ void refuse(const Case& c, const Setup& setup) {
   refuse_unlike_branches(c, setup);
 }
 
+/// What a body that starts inside the ground does, contact nodes having no mass.
+void tell_start(Setup& setup) {
+  for (std::string& text : setup.warnings)
+    if (const auto end = text.find(": contact keeps it from going deeper");
+        end != std::string::npos)
+      text.replace(end, std::string::npos,
+                   ": contact nodes have no mass and are out of it after the first step, which "
+                   "shakes the wheel; start above the ground or touching it");
+}
+
 /// The mass of contact nodes goes to their neighbours.
 void move_masses(const Case& c, Setup& setup) {
   dynamics::Model& model = setup.model;
@@ -197,8 +226,9 @@ std::vector<Vec3> constant_load(const Case& c, const Setup& setup) {
   const dynamics::SolidBody& body = *setup.model.solid;
   for (std::size_t k = 0; k < c.pressures.size(); ++k)
     if (c.pressures[k].pressure.points().size() > 1)
-      throw case_error(c, item_of("load.pressure", k) + ".pressure",
-                       "pressures on a reduced wheel stay as they are", "a number");
+      throw case_error(c, item_of("load.pressure", k) + ".value",
+                       "is a table, and pressures on a reduced wheel stay as they are",
+                       "a number; or the full run, without --reduced");
   std::vector<Vec3> load(body.pressures.empty() ? 0 : body.sector.n_local());
   for (const dynamics::SolidPressure& p : body.pressures)
     for (std::size_t a = 0; a < load.size(); ++a) load[a] += p.pressure.at(0.0) * p.force[a];
@@ -236,6 +266,18 @@ void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
         fmt::format("{:.2g} steps in the pass of a {}: forces of fewer than 1.5 swing; a "
                     "--reduced-step of at most {:.2g} s",
                     w.passes(dt), w.passing(), e.pass / 1.618));
+  if (w.solid && contact::falls_with_slip(c.ground->friction))
+    warn(
+        "ground.friction.slip_speed falls with the slip: contact nodes stick and slide in turn, "
+        "the "
+        "more the smaller the step, and friction may be off by several per cent: compare with "
+        "another --reduced-step (--estimate), or with the full run, without --reduced");
+  if (const double lowest = w.lowest(); w.solid && setup.model.mass_damping > 0.1 * lowest)
+    warn(fmt::format(
+        "damping.mass = {:.4g} 1/s acts on the modes of a reduced wheel alone, and is "
+        "not small beside the lowest one, of {:.4g} rad/s: more --modes feel it; or the "
+        "full run, without --reduced",
+        setup.model.mass_damping, lowest));
   if (!w.model.one_matrix.empty())
     warn(
         fmt::format("the material is so viscous at {:.4g} rad/s that in {} harmonics, from {} on, "
@@ -310,6 +352,13 @@ int PreparedWheel::n_modes() const {
   return rom::count_modes(model.harmonics);
 }
 
+double PreparedWheel::lowest() const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const rom::RingHarmonic& h : model.harmonics)
+    least = std::min(least, h.squares.size() > 0 ? std::sqrt(h.squares.minCoeff()) : least);
+  return least;
+}
+
 double PreparedWheel::highest() const {
   double most = 0.0;
   for (const rom::RingHarmonic& h : model.harmonics)
@@ -326,6 +375,7 @@ void begin_wheel(const Case& c, const RunOptions& options, std::optional<double>
   setup.model.dt =
       step_of(led ? std::numeric_limits<double>::infinity() : c.time.end, options, wheel.expected);
   setup.n_steps = count_steps(c, setup.model.dt);
+  if (setup.model.solid) tell_start(setup);
   const dynamics::Model& model = setup.model;
   wheel.law_residual = law_residual_of(options, setup);
   if (model.solid) {

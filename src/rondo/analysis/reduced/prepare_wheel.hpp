@@ -46,7 +46,8 @@ struct PreparedWheel {
   PreparedWheel& operator=(const PreparedWheel&) = delete;
 
   [[nodiscard]] int n_modes() const;
-  /// Angular frequency of the highest mode [rad/s]
+  /// Angular frequencies of the lowest mode, infinite: there is none, and of the highest [rad/s]
+  [[nodiscard]] double lowest() const;
   [[nodiscard]] double highest() const;
   /// What passes in the time expected.pass.
   [[nodiscard]] const char* passing() const { return whole ? "contact node" : "sector"; }

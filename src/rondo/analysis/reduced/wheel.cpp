@@ -30,6 +30,10 @@ constexpr JsonMember<PreparedWheel> wheel_rows[] = {
      "Time in which a sector passes at the largest spin, of a mesh from a file a contact node in "
      "the mean; null: the wheel does not turn",
      [](const PreparedWheel& w) { return w.expected.pass > 0.0 ? Json(w.expected.pass) : Json(); }},
+    {"wheel_law_residual", "number", "",
+     "Of a wheel in three dimensions: largest residual of the law of contact, over the largest "
+     "force, that its steps may leave",
+     [](const PreparedWheel& w) { return w.solid ? Json(w.law_residual) : absent(); }},
     {"wheel_full_step", "number", "s", "Step of the full run",
      [](const PreparedWheel& w) -> Json { return w.full_step; }},
 };
@@ -57,14 +61,16 @@ constexpr JsonMember<WheelEnd> effort_rows[] = {
      [](const WheelEnd& e) -> Json { return e.f.iterations_max; }},
     {"contacts_max", "integer", "", "Most nodes in contact at once",
      [](const WheelEnd& e) -> Json { return e.f.contacts_max; }},
-    {"steps_pivoted", "integer", "", "Steps in which the contact law needed pivoting",
+    {"steps_pivoted", "integer", "",
+     "Steps in which the contact law needed pivoting, in three dimensions Newton's method",
      [](const WheelEnd& e) -> Json { return e.f.pivoted; }},
     {"steps_late_friction", "integer", "",
      "Steps whose coefficients of friction are those by slip and pressure of the step before, "
      "because those of the step itself were not found",
      [](const WheelEnd& e) -> Json { return e.f.late_friction; }},
     {"steps_not_converged", "integer", "",
-     "Steps that missed the contact law by more than 1e-9, or whose brake no try held",
+     "Steps that missed the contact law by more than 1e-9, in three dimensions by more than "
+     "`wheel_law_residual`, or whose brake no try held",
      [](const WheelEnd& e) -> Json { return e.f.not_converged; }},
 };
 constexpr JsonMember<WheelEnd> wheel_end_rows[] = {
@@ -86,6 +92,12 @@ constexpr JsonMember<WheelEstimate> wheel_estimate_rows[] = {
      [](const WheelEstimate& e) -> Json { return e.larger().y; }},
     {"force_x_of_itself", "number or null", "", "Likewise of the mean F_x, over itself",
      [](const WheelEstimate& e) { return known(e.larger().x_of_itself); }},
+    {"force_lateral", "number", "",
+     "Likewise of the mean lateral force, over the mean F_y; of a disk 0",
+     [](const WheelEstimate& e) -> Json { return e.larger().lateral; }},
+    {"moment_aligning", "number", "m",
+     "Likewise of the mean aligning moment, over the mean F_y; of a disk 0",
+     [](const WheelEstimate& e) -> Json { return e.larger().aligning; }},
     {"friction_power", "number or null", "",
      "Likewise of the mean power taken by friction, over itself",
      [](const WheelEstimate& e) { return known(e.larger().friction_power); }},
@@ -128,6 +140,7 @@ class WheelAnalysis final : public DynamicAnalysis {
 
   [[nodiscard]] CheckReport check(double trial) override {
     CheckReport r = DynamicAnalysis::check(trial);
+    if (wheel_.solid) r.threads = 1;  // those of the set-up are more
     const double dt = setup().model.dt;
     r.lines.emplace_back("modes",
                          fmt::format("{}, up to {:.5g} rad/s", wheel_.n_modes(), wheel_.highest()));
@@ -182,6 +195,10 @@ class WheelAnalysis final : public DynamicAnalysis {
   [[nodiscard]] bool guards_impacts() const noexcept override { return false; }
   [[nodiscard]] double contact_bound() const noexcept override {
     return wheel_.solid ? wheel_.law_residual : residual_bound;
+  }
+  [[nodiscard]] std::string_view contact_cure() const noexcept override {
+    if (!wheel_.solid) return {};
+    return "; a smaller --reduced-step, a smaller friction, or the full run, without --reduced";
   }
   [[nodiscard]] std::string told_integrator() const override {
     return "reduced wheel with exact contact";

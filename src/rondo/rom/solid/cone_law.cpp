@@ -207,7 +207,13 @@ ConeLaw::Report ConeLaw::solve(std::span<ConeContact> contacts, const WindowComp
   }
   if (report.residual > tolerance_) {
     report.by_newton = true;
+    const std::vector<ConeLocal> swept = local_;
     newton(contacts, w);
+    const double found = residual(contacts);
+    if (!(found < report.residual)) {
+      local_ = swept;
+      multiply(contacts, w);
+    }
     report.residual = residual(contacts);
   }
   for (std::size_t i = 0; i < contacts.size(); ++i) finish(i, contacts[i]);

@@ -103,7 +103,7 @@ void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
     const Complex turned = conj(rotation(m.angle_next - m.angle)) * near.turn;
     const Vec3 before = frame.to(motion.attitude.to_fixed(turned * was.force));
     e.friction -= 0.5 * ((before.y + c.force.y) * c.moved.y + (before.z + c.force.z) * c.moved.z);
-    if (was.known > 0) e.arrival += c.force.x * (was.gap[0] - c.moved.x);
+    if (was.known > 0 && was.gap[0] > 0.0) e.arrival += c.force.x * (was.gap[0] - c.moved.x);
   }
   e.rim = dot(report.end.force, motion.center_next() - motion.center()) +
           (m.angle_next - m.angle) * report.torque +

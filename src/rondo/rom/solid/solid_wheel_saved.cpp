@@ -58,6 +58,8 @@ std::size_t SolidWheel::n_numbers(const SolidRing& ring, const WheelModel& model
 bool SolidWheel::is_saved(const SolidRing& ring, const WheelModel& model,
                           std::span<const double> numbers) noexcept {
   if (numbers.size() != n_numbers(ring, model)) return false;
+  const double first = numbers[1];
+  if (!(first >= 0.0 && first < ring.n_sectors() && first == std::floor(first))) return false;
   const std::size_t nodes = numbers_of_node * ring.contact.size() * at(ring.n_sectors());
   for (std::span left = numbers.last(nodes); !left.empty(); left = left.subspan(numbers_of_node)) {
     const double known = left[numbers_of_node - 1];
