@@ -80,6 +80,7 @@ int fmu(const study::FmuRequest& a, Telling& tell) {
   d.identifier = fmu::identifier_of(a.output.stem().string());
   d.title = study::as_utf8(c.title);
   d.guid = guid_of(case_text, fmt::format("{} {:.17g}", wheel.n_modes(), wheel.step()));
+  d.dimension = wheel.dimension();
   d.start = fmu::start_values(c, wheel.step());
   const Json settings = {{"guid", d.guid},
                          {"step", wheel.step()},
@@ -107,8 +108,9 @@ int fmu(const study::FmuRequest& a, Telling& tell) {
   }
   fmt::print("modes              {}\n", report.modes);
   fmt::print("internal step      {:.6g} s at the most\n", report.step);
-  fmt::print("tyre               {:.6g} kg, {:.6g} kg m2 for a width of 1 m: the hub's to have\n",
-             report.tyre_mass, report.tyre_inertia);
+  fmt::print("tyre               {:.6g} kg, {:.6g} kg m2{}: the hub's to have\n", report.tyre_mass,
+             report.tyre_inertia,
+             d.dimension == fmu::Dimension::plane ? " for a width of 1 m" : " about its axle");
   fmt::print("FMU                {} ({})\n", report.file.string(), readable_bytes(report.bytes));
   return exit_done;
 }
