@@ -136,11 +136,6 @@ void Wheel::check() {
         "the importer moves the rim of an FMU, and a reduced wheel on a rim that "
         "moves needs equal sectors, which a mesh from a file is not known to have",
         "a [disk]; or rondo run --reduced, whose rim follows tables");
-  if (case_.section)
-    throw study::case_error(case_, "section.file",
-                            "the mesh of a section is read by a program of its own, which does not "
-                            "come along with an FMU",
-                            "a [disk] with a width; or rondo run --reduced");
   if (dimension() == Dimension::space && !case_.ground->road.file.empty())
     throw study::case_error(case_, "ground.road",
                             "a road is a file, which does not come along with an FMU",
