@@ -211,6 +211,42 @@ class Tyre(SpaceTest):
                 other.begin()
 
 
+class Road(SpaceTest):
+    def test_a_road_comes_along(self):
+        """Its own file is gone when the FMU is loaded, whose forces are those of the run over the cobbles:
+        as on flat ground but for what no mode has, which nodes on stones feel one by one."""
+        road, case = self.folder / "stones.crg", self.folder / "on-stones.toml"
+        road.write_bytes((ROOT / "cases" / "roads" / "cobbles.crg").read_bytes())
+        case.write_text(CASE.read_text().replace('profile = "flat"', 'road = "stones.crg"\nroad_offset = 0.05'))
+        down = ("motion.height=[[0,0.315],[1,-0.085]]", "output.history_interval=0", "time.end=0.06",
+                "output.snapshots=0")
+        words = [word for s in down for word in ("--set", s)]
+        made("run", case, "--reduced", "--reduced-step", STEP, "-o", self.folder / "run", *words)
+        own = history(self.folder / "run")
+        folder = self.wheel_of("stones", case, *down)
+        road.unlink()
+        fmu = self.instance(folder)
+        rows = []
+        for k in range(300):
+            fmu.step(k * STEP, STEP)
+            rows.append(fmu.get(*FORCES[:3]))
+        rows = np.array(rows)
+        largest = rows[:, 2].max()
+        self.assertGreater(largest, 1e4)
+        for column, i, sign in (("force_x", 0, 1), ("force_lateral", 1, -1), ("force_y", 2, 1)):
+            np.testing.assert_allclose(sign * rows[:, i], np.asarray(own[column])[-300:], rtol=0,
+                                       atol=1e-4 * largest, err_msg=column)
+
+    def test_a_road_in_two_files_is_refused(self):
+        road, case = self.folder / "stones.crg", self.folder / "on-stones.toml"
+        (self.folder / "heights.crg").write_bytes((ROOT / "cases" / "roads" / "cobbles.crg").read_bytes())
+        road.write_text("$CT\nrefers\n$\n$ROAD_CRG_FILE\nheights.crg\n$\n$$$$\n")
+        case.write_text(CASE.read_text().replace('profile = "flat"', 'road = "stones.crg"\nroad_offset = 0.05'))
+        done = run("fmu", case, "-o", self.folder / "none.fmu")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("refers to another file", done.stderr)
+
+
 class Hub(SpaceTest):
     def test_the_rigid_tyre_is_left_to_the_hub(self):
         """On a circle in the air, faster and faster, with gravity, a tyre of 23 kg does next to nothing to its hub: there

@@ -12,8 +12,9 @@ namespace rondo::fmu {
 /// Name in the folder of the resources, and contents.
 using Resource = std::pair<std::string, std::string>;
 
-/// case.toml, and the mesh of its section, which its importer reads without any other program.
-/// @throws InputError, FileError: the mesh cannot be read
+/// case.toml; the mesh of its section, which its importer reads without any other program; the road
+/// under a wheel in three dimensions.
+/// @throws InputError, FileError: a file cannot be read, or a road is in more than one
 [[nodiscard]] std::vector<Resource> packed_case(const study::Case& c);
 
 }  // namespace rondo::fmu

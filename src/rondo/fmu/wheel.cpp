@@ -136,10 +136,6 @@ void Wheel::check() {
         "the importer moves the rim of an FMU, and a reduced wheel on a rim that "
         "moves needs equal sectors, which a mesh from a file is not known to have",
         "a [disk]; or rondo run --reduced, whose rim follows tables");
-  if (dimension() == Dimension::space && !case_.ground->road.file.empty())
-    throw study::case_error(case_, "ground.road",
-                            "a road is a file, which does not come along with an FMU",
-                            "a ground.profile, or [[ground.obstacle]] with a fillet");
   if (case_.motion.gravity.points().size() > 1)
     throw study::case_error(case_, "motion.gravity", "gravity of an FMU stays as it is",
                             "a number");
