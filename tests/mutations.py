@@ -26,7 +26,7 @@ PROGRAMS = {"V": "verification/verification", "W": "verification/verification_lo
             "R": "verification/verification_reducibility"}
 PROGRAMS |= {m: f"unit/unit_{m}" for m in ("core", "road", "mesh", "fem", "contact", "model", "integrators",
                                            "statics", "modal", "pod", "rom", "case", "io",
-                                           "output", "analysis", "study")}
+                                           "output", "analysis", "study")} | {"fmuunit": "unit/unit_fmu"}
 
 SCRIPTS = {"cli": "test_run.py", "lengths": "test_contact_lengths.py", "disk": "test_full_disk.py", "crush": "test_crush.py", "slipstep": "test_slip_step.py",
            "histories": "test_crush_histories.py",
@@ -35,7 +35,7 @@ SCRIPTS = {"cli": "test_run.py", "lengths": "test_contact_lengths.py", "disk": "
            "terminal": "test_terminal.py", "sweep": "test_sweep.py", "sweeplatin": "test_sweep_latin.py", "team": "test_sweep_team.py",
            "shards": "test_sweep_shards.py", "shardswrong": "test_sweep_shards_wrong.py",
            "reduce": "test_reduce.py", "solid": "test_solid.py", "tyre": "test_tyre.py", "tyrerolling": "test_tyre_rolling.py", "tyresteady": "test_tyre_steady_nonlinear.py", "tyrecheck": "test_tyre_check.py", "tyrecrush": "test_tyre_crush.py", "viscosity": "test_viscosity.py",
-           "fmu": "test_fmu.py", "rim": "test_wheel_rim.py", "schema": "test_schema.py", "small": "test_small_obstacles.py", "roads": "test_road.py",
+           "fmu": "test_fmu.py", "fmuspace": "test_fmu_space.py", "fmufiles": "test_fmu_files.py", "rim": "test_wheel_rim.py", "schema": "test_schema.py", "small": "test_small_obstacles.py", "roads": "test_road.py",
            "obstacles": "test_obstacles.py", "angles": "test_obstacle_angles.py", "frictionwork": "test_friction_work.py", "frictiontables": "test_friction_tables.py"}
 
 # @file in src/rondo, then of each mutation in it: name | old text => new text | tests.

@@ -40,6 +40,7 @@ Component::Component(const std::string& name, const std::string& resources, cons
   if (guid != guid_) throw request_error("fmuGUID", guid, "is not that of this FMU", guid_);
   study::Case c = study::read_case(folder / "case.toml");
   start_ = start_values(c, settings["step"]);
+  variables_ = variables(dimension_of(c));
   values_ = start_;
   study::RunOptions options;
   options.reduced_modes = settings["modes"];
@@ -141,19 +142,19 @@ fmi2Status Component::get(const fmi2ValueReference* references, std::size_t n, d
   if (n > 0 && (references == nullptr || values == nullptr))
     return error("fmi2GetReal: the value references or the values are NULL");
   for (std::size_t k = 0; k < n; ++k)
-    if (references[k] >= variables().size())
+    if (references[k] >= variables_.size())
       return error(fmt::format("fmi2GetReal: there is no value reference {}; 0 to {}",
-                               references[k], variables().size() - 1));
+                               references[k], variables_.size() - 1));
   if (phase_ == Phase::instantiated)
     for (std::size_t k = 0; k < n; ++k) {
-      const Variable& v = variables()[references[k]];
+      const Variable& v = variables_[references[k]];
       if (v.kind == Kind::output || v.kind == Kind::calculated)
         return error(
             fmt::format("fmi2GetReal: {} is computed: fmi2EnterInitializationMode before", v.name));
     }
   const bool computed = phase_ == Phase::initializing;
   if (computed) refresh();
-  for (std::size_t k = 0; k < n; ++k) values[k] = values_.*variables()[references[k]].value;
+  for (std::size_t k = 0; k < n; ++k) values[k] = values_.*variables_[references[k]].value;
   return computed ? tell_warnings() : fmi2OK;
 }
 
@@ -164,10 +165,10 @@ fmi2Status Component::set(const fmi2ValueReference* references, std::size_t n,
     return error("fmi2SetReal: the value references or the values are NULL");
   const bool before = phase_ == Phase::instantiated || phase_ == Phase::initializing;
   for (std::size_t k = 0; k < n; ++k) {
-    if (references[k] >= variables().size())
+    if (references[k] >= variables_.size())
       return error(fmt::format("fmi2SetReal: there is no value reference {}; 0 to {}",
-                               references[k], variables().size() - 1));
-    const Variable& v = variables()[references[k]];
+                               references[k], variables_.size() - 1));
+    const Variable& v = variables_[references[k]];
     if (v.kind == Kind::output || v.kind == Kind::calculated)
       return error(fmt::format("fmi2SetReal: {} is computed, and not to be set", v.name));
     if (v.kind == Kind::parameter && !before)
@@ -178,7 +179,7 @@ fmi2Status Component::set(const fmi2ValueReference* references, std::size_t n,
     if (const std::string wrong = refusal(v, values[k]); !wrong.empty())
       return error("fmi2SetReal: " + wrong);
   }
-  for (std::size_t k = 0; k < n; ++k) values_.*variables()[references[k]].value = values[k];
+  for (std::size_t k = 0; k < n; ++k) values_.*variables_[references[k]].value = values[k];
   if (before) stale_ = true;
   return fmi2OK;
 }

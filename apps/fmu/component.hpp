@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,7 @@ class Component {
   bool logs_;
   std::set<std::string> categories_;  ///< empty: all
   std::string guid_;
+  std::span<const Variable> variables_;
   Values start_, values_;
   std::unique_ptr<Wheel> wheel_;
   Phase phase_ = Phase::instantiated;

@@ -17,7 +17,7 @@ constexpr JsonMember<FmuReport> fmu_members[] = {
      [](const FmuReport& r) -> Json { return r.modes; }},
     {"step", "number", "s", "internal step at the most",
      [](const FmuReport& r) -> Json { return r.step; }},
-    {"tyre_mass", "number", "kg", "for a width of 1 m, to be added to the hub's",
+    {"tyre_mass", "number", "kg", "to be added to the hub's; of a plane wheel for a width of 1 m",
      [](const FmuReport& r) -> Json { return r.tyre_mass; }},
     {"tyre_inertia", "number", "kg m2", "likewise",
      [](const FmuReport& r) -> Json { return r.tyre_inertia; }},

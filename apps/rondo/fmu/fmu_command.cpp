@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "commands.hpp"
 #include "documents/documents.hpp"
@@ -13,6 +14,7 @@
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/fmu/description.hpp"
+#include "rondo/fmu/packed_case.hpp"
 #include "rondo/fmu/wheel.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/output/run_files.hpp"
@@ -75,23 +77,27 @@ int fmu(const study::FmuRequest& a, Telling& tell) {
   fmu::Values values = fmu::start_values(c, 0.0);
   wheel.begin(values);
   for (const std::string& text : wheel.take_warnings()) spdlog::warn(text);
-  const std::string case_text = study::write_case(c);
+  const std::vector<fmu::Resource> packed = fmu::packed_case(c);
   fmu::Description d;
   d.identifier = fmu::identifier_of(a.output.stem().string());
   d.title = study::as_utf8(c.title);
-  d.guid = guid_of(case_text, fmt::format("{} {:.17g}", wheel.n_modes(), wheel.step()));
+  std::string contents;
+  for (const auto& [name, text] : packed) contents += text;
+  d.guid = guid_of(contents, fmt::format("{} {:.17g}", wheel.n_modes(), wheel.step()));
+  d.dimension = wheel.dimension();
   d.start = fmu::start_values(c, wheel.step());
   const Json settings = {{"guid", d.guid},
                          {"step", wheel.step()},
                          {"modes", wheel.n_modes()},
                          {"reduced_step", wheel.step()},
                          {"build_record", study::build_record_json()}};
-  write_zip(a.output, {{"modelDescription.xml", fmu::model_description(d)},
-                       {"binaries/linux64/" + d.identifier + ".so", binary},
-                       {"resources/case.toml", case_text},
-                       {"resources/wheel.json", settings.dump(2) + "\n"},
-                       {"documentation/index.html", fmu::index_page(d)},
-                       {"documentation/LICENSE", license_text}});
+  std::vector<ZipEntry> entries{{"modelDescription.xml", fmu::model_description(d)},
+                                {"binaries/linux64/" + d.identifier + ".so", binary}};
+  for (const auto& [name, text] : packed) entries.emplace_back("resources/" + name, text);
+  entries.insert(entries.end(), {{"resources/wheel.json", settings.dump(2) + "\n"},
+                                 {"documentation/index.html", fmu::index_page(d)},
+                                 {"documentation/LICENSE", license_text}});
+  write_zip(a.output, entries);
   std::error_code error;
   const FmuReport report{a.output,
                          d.identifier,
@@ -107,8 +113,9 @@ int fmu(const study::FmuRequest& a, Telling& tell) {
   }
   fmt::print("modes              {}\n", report.modes);
   fmt::print("internal step      {:.6g} s at the most\n", report.step);
-  fmt::print("tyre               {:.6g} kg, {:.6g} kg m2 for a width of 1 m: the hub's to have\n",
-             report.tyre_mass, report.tyre_inertia);
+  fmt::print("tyre               {:.6g} kg, {:.6g} kg m2{}: the hub's to have\n", report.tyre_mass,
+             report.tyre_inertia,
+             d.dimension == fmu::Dimension::plane ? " for a width of 1 m" : " about its axle");
   fmt::print("FMU                {} ({})\n", report.file.string(), readable_bytes(report.bytes));
   return exit_done;
 }

@@ -45,6 +45,7 @@ constexpr Unit units[] = {{"1", ""},
                           {"s", "s=\"1\""},
                           {"rad", "rad=\"1\""},
                           {"kg", "kg=\"1\""},
+                          {"m2", "m=\"2\""},
                           {"m/s", "m=\"1\" s=\"-1\""},
                           {"rad/s", "rad=\"1\" s=\"-1\""},
                           {"N", "kg=\"1\" m=\"1\" s=\"-2\""},
@@ -75,27 +76,34 @@ std::string real_text(const Variable& v, const Values& start) {
   return text + "/>";
 }
 
-std::string variables_text(const Values& start) {
+std::string variables_text(const Description& d) {
   std::string text;
   std::size_t reference = 0;
-  for (const Variable& v : variables())
+  for (const Variable& v : variables(d.dimension))
     text += fmt::format(
         "    <ScalarVariable name=\"{}\" valueReference=\"{}\" {} description=\"{}\">\n"
         "      {}\n    </ScalarVariable>\n",
-        v.name, reference++, kind_text(v.kind), escaped(v.description), real_text(v, start));
+        v.name, reference++, kind_text(v.kind), escaped(v.description), real_text(v, d.start));
   return text;
 }
 
 /// Indices start at 1.
-std::string unknowns(bool calculated) {
+std::string unknowns(Dimension dimension, bool calculated) {
   std::string text;
   std::size_t index = 0;
-  for (const Variable& v : variables()) {
+  for (const Variable& v : variables(dimension)) {
     ++index;
     if (v.kind == Kind::output || (calculated && v.kind == Kind::calculated))
       text += fmt::format("      <Unknown index=\"{}\"/>\n", index);
   }
   return text;
+}
+
+const char* axes_text(Dimension dimension) {
+  if (dimension == Dimension::plane) return "";
+  return " Axes are those of ISO 8855: x along the heading of the wheel, y to the left, z up; they "
+         "turn with the heading, but do not lean with the camber. Heights are along z, and the "
+         "zeros of hub_x and hub_y are those of the ground of the case.";
 }
 
 }  // namespace
@@ -136,12 +144,12 @@ std::string model_description(const Description& d) {
       "  </ModelStructure>\n"
       "</fmiModelDescription>\n",
       d.identifier, d.guid, escaped("Reduced wheel: " + d.title), version, unit_text, d.start.step,
-      variables_text(d.start), unknowns(false), unknowns(true));
+      variables_text(d), unknowns(d.dimension, false), unknowns(d.dimension, true));
 }
 
 std::string index_page(const Description& d) {
   std::string rows;
-  for (const Variable& v : variables())
+  for (const Variable& v : variables(d.dimension))
     rows += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>\n", v.name, v.unit,
                         escaped(v.description));
   return fmt::format(
@@ -151,11 +159,11 @@ std::string index_page(const Description& d) {
       "tyre does to the hub comes out. The tyre as a rigid body is the hub's: add tyre_mass, its "
       "weight and tyre_inertia to those of the hub; the forces are without them. What an input "
       "has when a communication step is made, the hub has at its end. Parameters are set before "
-      "initialisation is over.</p>\n"
+      "initialisation is over.{4}</p>\n"
       "<table>\n<tr><th>variable</th><th>unit</th><th>meaning</th></tr>\n{2}</table>\n"
       "<p>Written by rondo {3}, whose docs/fmu.md says the rest. BSD 3-Clause License: "
       "<a href=\"LICENSE\">LICENSE</a>.</p>\n</html>\n",
-      escaped(d.identifier), escaped(d.title), rows, version);
+      escaped(d.identifier), escaped(d.title), rows, version, axes_text(d.dimension));
 }
 
 }  // namespace rondo::fmu

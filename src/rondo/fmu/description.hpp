@@ -12,6 +12,7 @@ struct Description {
   std::string identifier;  ///< a C identifier: the name of the binary
   std::string title;       ///< of the case
   std::string guid;        ///< of case and model
+  Dimension dimension = Dimension::plane;
   Values start;
 };
 

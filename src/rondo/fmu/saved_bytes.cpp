@@ -47,9 +47,7 @@ class Archive {
     if (maybe) (*this)(*maybe);
   }
   void operator()(dynamics::SavedState& s) { all(s.step, s.ring, s.ledger); }
-  void operator()(SavedWheel& s) {
-    all(s.values, s.start, s.dt, s.velocity_x, s.velocity_y, s.angular_velocity, s.state);
-  }
+  void operator()(SavedWheel& s) { all(s.values, s.start, s.dt, s.hub, s.state); }
 
   [[nodiscard]] std::vector<char>& bytes() noexcept { return to_; }
   [[nodiscard]] bool is_at_end() const noexcept { return from_.empty(); }

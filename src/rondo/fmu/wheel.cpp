@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <numbers>
 #include <string_view>
@@ -16,7 +17,9 @@
 #include "rondo/analysis/reduced/prepare_wheel.hpp"
 #include "rondo/core/error.hpp"
 #include "rondo/core/process_wide.hpp"
+#include "rondo/fmu/led_wheel.hpp"
 #include "rondo/integrators/start.hpp"
+#include "rondo/model/solid/wheel_ground.hpp"
 #include "rondo/output/contact_statistics.hpp"
 
 namespace rondo::fmu {
@@ -28,8 +31,15 @@ std::mutex& building() {
   return mutex;
 }
 
-rom::RimVector velocities(const Values& v) {
-  return {v.hub_velocity_x, v.hub_velocity_y, -v.hub_angular_velocity};
+/// Between two velocities. @param share of the way: 0 to 1
+rom::HubVelocity between(const rom::HubVelocity& a, const rom::HubVelocity& b, double share) {
+  const auto mixed = [&](double from, double to) { return from + share * (to - from); };
+  rom::HubVelocity v;
+  v.along = a.along + share * (b.along - a.along);
+  v.spin = mixed(a.spin, b.spin);
+  v.camber_rate = mixed(a.camber_rate, b.camber_rate);
+  v.yaw_rate = mixed(a.yaw_rate, b.yaw_rate);
+  return v;
 }
 
 dynamics::Table height_table(double height, double velocity) {
@@ -42,10 +52,29 @@ constexpr double led_speed = 60.0;  ///< to which a wheel may be led at least   
 /// Words of warnings about the motion of a case, which is not that of its FMU.
 constexpr std::string_view of_motion[] = {"motion.", "tables of [motion]", "time.step"};
 
+/// Largest and smallest distance of a node from the axle [m].
+std::array<double, 2> radii_of(const study::Case& c, const study::Setup& setup) {
+  if (!c.section) return {c.disk.outer_radius, c.disk.inner_radius};
+  std::array<double, 2> radii{0.0, std::numeric_limits<double>::infinity()};
+  for (const Vec2 x : setup.model.reference)
+    radii = {std::max(radii[0], norm(x)), std::min(radii[1], norm(x))};
+  return radii;
+}
+
 /// Spin up to which the residual is made, whatever the inputs: states go from one instance to
 /// another.
-double led_spin(const study::Case& c) {
-  return std::max(2.0 * c.motion.angular_velocity.largest(), led_speed / c.disk.outer_radius);
+double led_spin(const study::Case& c, double radius) {
+  return std::max(2.0 * c.motion.angular_velocity.largest(), led_speed / radius);
+}
+
+/// Gives a wheel in three dimensions the velocity along the ground at the start.
+void set_course(const Values& v, dynamics::Motion& motion) {
+  const double left = v.hub_velocity_left;
+  const double sense = v.hub_velocity_x < 0.0 ? -1.0 : 1.0;
+  motion.speed = dynamics::Table(sense * std::hypot(v.hub_velocity_x, left));
+  motion.slip_angle =
+      dynamics::Table(left == 0.0 ? 0.0 : std::atan2(-sense * left, std::abs(v.hub_velocity_x)));
+  motion.camber = v.camber_start;
 }
 
 /// The importer prescribes the hub: it is constrained, and no other load acts on it. Only the start
@@ -61,24 +90,18 @@ study::Case case_of(const study::Case& given, const Values& v) {
   c.motion.start_x = v.hub_x_start;
   c.motion.speed = dynamics::Table(v.hub_velocity_x);
   c.motion.angular_velocity = dynamics::Table(v.hub_angular_velocity);
-  c.motion.height = height_table(v.hub_height_start - v.ground_height, v.hub_velocity_y);
+  c.motion.height = height_table(v.hub_height_start - v.ground_height, v.hub_velocity_up);
+  if (dimension_of(given) == Dimension::space) set_course(v, c.motion);
   return c;
 }
 
-bool same_parameters(const Values& a, const Values& b) {
-  for (const Variable& variable : variables())
+bool same_parameters(Dimension dimension, const Values& a, const Values& b) {
+  for (const Variable& variable : variables(dimension))
     if (variable.kind == Kind::parameter && a.*variable.value != b.*variable.value) return false;
   return true;
 }
 
 }  // namespace
-
-/// Means over the steps since the last communication point.
-struct Wheel::Sums {
-  Vec2 held, contact;  ///< forces [N/m]
-  double torque = 0.0;
-  long long n = 0;
-};
 
 struct Wheel::Body {
   study::Case c;
@@ -87,14 +110,12 @@ struct Wheel::Body {
   dynamics::State start;
   study::Bounds bounds;
   double largest_step = 0.0;
-  double mass = 0.0, inertia = 0.0;  ///< [kg/m], [kg·m]
-  std::unique_ptr<rom::WheelRun> integrator;
+  double rim = 0.0;  ///< its radius                                                 [m]
+  std::unique_ptr<LedWheel> run;
   study::ContactStatistics contact;
-  Values parameters;   ///< parameters with which it was made
-  rom::RimVector hub;  ///< at the last communication point
-  Sums sums;
-  dynamics::StepReport last;
-  double dt = 0.0;  ///< 0: no step was made
+  Values parameters;     ///< parameters with which it was made
+  rom::HubVelocity hub;  ///< at the last communication point
+  double dt = 0.0;       ///< 0: no step was made
 };
 
 Wheel::Wheel(study::Case c, study::RunOptions options)
@@ -120,6 +141,10 @@ void Wheel::check() {
                             "a number");
 }
 
+Dimension Wheel::dimension() const {
+  return dimension_of(case_);
+}
+
 double Wheel::step() const noexcept {
   return body_ ? body_->largest_step : 0.0;
 }
@@ -136,11 +161,16 @@ void Wheel::begin(Values& values) {
   Body& b = *body;
   b.c = case_of(case_, values);
   b.setup = study::build(b.c, 1, nullptr, study::Steps::of_reduced_wheel);
-  study::prepare_wheel(b.c, options_, led_spin(case_), b.setup, b.wheel);
+  const auto [radius, rim] = radii_of(case_, b.setup);
+  b.rim = rim;
+  study::prepare_wheel(b.c, options_, led_spin(case_, radius), b.setup, b.wheel);
   b.largest_step = values.step > 0.0 ? values.step : b.setup.model.dt;
   b.start =
       dynamics::start(b.setup.model, b.setup.displacement, b.setup.velocity, b.setup.half_velocity);
-  b.bounds = {study::residual_bound, study::largest_strain_energy(b.setup), "", false, "J/m"};
+  const bool is_plane = dimension() == Dimension::plane;
+  b.bounds = {study::residual_bound, study::largest_strain_energy(b.setup), "", false,
+              is_plane ? "J/m" : "J"};
+  if (!is_plane) b.bounds.contact = b.wheel.law_residual;
   body_ = std::move(body);
   // Warnings about [motion] are replaced by those about the inputs.
   for (const auto* said : {&b.setup.warnings, &b.wheel.warnings})
@@ -150,23 +180,26 @@ void Wheel::begin(Values& values) {
           }))
         warn(text);
   b.hub = velocities(values);
+  b.parameters = values;
   make_integrator(b.largest_step);
-  b.mass = b.integrator->rim()->whole_mass();
-  b.inertia = b.integrator->rim()->whole_inertia();
-  values.tyre_mass = values.width * b.mass;
-  values.tyre_inertia = values.width * b.inertia;
+  b.run->weigh(values);
+  for (double* of_width : {&values.tyre_mass, &values.tyre_inertia}) *of_width *= values.width;
   b.parameters = values;
   warn_of_step(values, b.largest_step);
   const std::string wrong = make_steps(values, 1);
   Values first = values;
-  fill(values, b.largest_step, first);
+  b.run->fill(values.ground_height, values.width, first);
   first.hub_x = values.hub_x_start;
+  first.hub_left = values.hub_left_start;
   first.hub_height = values.hub_height_start;
-  first.hub_angle = 0.0;
+  first.hub_angle = first.yaw = 0.0;
+  first.camber = values.camber_start;
+  const Vec3 start{values.hub_x_start, values.hub_height_start - values.ground_height,
+                   0.0 - values.hub_left_start};
   first.loaded_radius =
-      b.setup.model.contact->ground.distance(b.setup.model.motion.center(0.0).plane());
+      dynamics::distance_in_space(*b.setup.model.contact, start) / std::cos(values.camber_start);
   values = first;
-  b.integrator.reset();
+  b.run.reset();
   b.dt = 0.0;
   b.contact = {};
   warn_of_spin(values);
@@ -176,8 +209,7 @@ void Wheel::begin(Values& values) {
 void Wheel::make_integrator(double dt) {
   Body& b = *body_;
   b.setup.model.dt = dt;
-  b.integrator = std::make_unique<rom::WheelRun>(b.setup.model, *b.wheel.ring, b.wheel.model,
-                                                 b.wheel.figures, b.start);
+  b.run = led_wheel(b.setup, b.wheel, b.start, b.parameters);
   b.dt = dt;
 }
 
@@ -187,7 +219,7 @@ double Wheel::first_step(double length) const {
 
 double Wheel::sectors_passed(const Values& values, double dt) const {
   const Body& b = *body_;
-  const double spin = std::max(std::abs(b.hub[2]), std::abs(values.hub_angular_velocity));
+  const double spin = std::max(std::abs(b.hub.spin), std::abs(values.hub_angular_velocity));
   return spin * dt * b.setup.mesh.n_sectors / (2.0 * std::numbers::pi);
 }
 
@@ -238,9 +270,7 @@ std::string Wheel::go_on(Values& values, double length) {
   warn_of_step(values, b.dt);
   std::string wrong = make_steps(values, n);
   if (!wrong.empty()) return wrong;
-  Values to = values;
-  fill(values, static_cast<double>(n) * b.dt, to);
-  values = to;
+  b.run->fill(values.ground_height, values.width, values);
   b.hub = velocities(values);
   const std::string late = study::late_friction_text(b.wheel.figures);
   if (!late.empty() && said_.insert("friction").second) warnings_.push_back(late);
@@ -250,54 +280,23 @@ std::string Wheel::go_on(Values& values, double length) {
 /// The hub's velocities change linearly from the last communication point to the given values.
 std::string Wheel::make_steps(const Values& values, long long n) {
   Body& b = *body_;
-  const rom::RimVector from = b.hub, to = velocities(values);
-  b.sums = {};
-  std::array<dynamics::StepReport, 1> report;
+  const rom::HubVelocity to = velocities(values);
+  b.run->begin(b.hub);
   for (long long k = 1; k <= n; ++k) {
     const double share = static_cast<double>(k) / static_cast<double>(n);
-    b.integrator->lead(k == n ? to : rom::RimVector(from + share * (to - from)));
-    b.integrator->advance(report);
-    b.last = report[0];
-    b.contact.add(b.last.contact);
-    b.sums.held += b.last.rim.force;
-    b.sums.torque += b.last.rim.torque;
-    b.sums.contact += b.last.contact.impulse.plane() / b.dt;
-    ++b.sums.n;
-    if (std::string wrong = trouble(); !wrong.empty()) return wrong;
+    const dynamics::StepReport& made = b.run->step(k == n ? to : between(b.hub, to, share));
+    b.contact.add(made.contact);
+    if (std::string wrong = trouble(made); !wrong.empty()) return wrong;
   }
   return {};
 }
 
-std::string Wheel::trouble() const {
+std::string Wheel::trouble(const dynamics::StepReport& made) const {
   const Body& b = *body_;
-  const study::OutOfBound found = study::find_out_of_bound(b.last.balance, b.contact, b.bounds);
-  const double time = b.last.frame.time;
-  if (!found.what.empty()) return fmt::format("t = {:.9g} s of the wheel: {}", time, found.what);
-  const double above = b.setup.model.contact->ground.distance(b.last.frame.center.plane());
-  if (above > b.c.disk.inner_radius) return {};
-  return fmt::format(
-      "t = {:.9g} s of the wheel: its hub is {:.4g} m above the ground, and the rim, of {:.4g} m, "
-      "is in it",
-      time, above, b.c.disk.inner_radius);
-}
-
-/// (F.1), (F.2): forces that hold the hub, without inertia and weight of the rigid body.
-void Wheel::fill(const Values& from, double length, Values& to) const {
-  const Body& b = *body_;
-  const double n = static_cast<double>(b.sums.n), w = from.width;
-  const rom::RimVector rate = (velocities(from) - b.hub) / length;
-  const Vec2 gravity = b.setup.model.motion.gravity_at(0.0);
-  to.force_x = w * (b.mass * (rate[0] - gravity.x) - b.sums.held.x / n);
-  to.force_y = w * (b.mass * (rate[1] - gravity.y) - b.sums.held.y / n);
-  to.torque = w * (-b.inertia * rate[2] - b.sums.torque / n);
-  to.contact_force_x = w * b.sums.contact.x / n;
-  to.contact_force_y = w * b.sums.contact.y / n;
-  const Vec2 center = b.last.frame.center.plane();
-  to.hub_x = center.x;
-  to.hub_height = center.y + from.ground_height;
-  to.hub_angle = -b.last.frame.angle;
-  to.loaded_radius = b.setup.model.contact->ground.distance(center);
-  to.contact_length = b.last.contact.length;
+  const study::OutOfBound found = study::find_out_of_bound(made.balance, b.contact, b.bounds);
+  const std::string wrong = found.what.empty() ? b.run->misplaced(b.rim) : found.what;
+  if (wrong.empty()) return {};
+  return fmt::format("t = {:.9g} s of the wheel: {}", made.frame.time, wrong);
 }
 
 void Wheel::warn(std::string text) {
@@ -328,10 +327,8 @@ SavedWheel Wheel::save(const Values& values) const {
   s.values = values;
   s.start = b.parameters;
   s.dt = b.dt;
-  s.velocity_x = b.hub[0];
-  s.velocity_y = b.hub[1];
-  s.angular_velocity = b.hub[2];
-  if (b.dt > 0.0) s.state = b.integrator->save();
+  s.hub = b.hub;
+  if (b.dt > 0.0) s.state = b.run->save();
   return s;
 }
 
@@ -340,16 +337,16 @@ SavedWheel Wheel::save(const Values& values) const {
 void Wheel::restore(const SavedWheel& s, Values& values) {
   const BorrowedBlas blas;
   Values start = s.start;
-  if (!s.state || !body_ || !same_parameters(body_->parameters, start)) begin(start);
+  if (!s.state || !body_ || !same_parameters(dimension(), body_->parameters, start)) begin(start);
   Body& b = *body_;
   if (s.state) {
     if (b.dt != s.dt) make_integrator(s.dt);
-    if (!rom::WheelRun::is_saved(b.setup.model, *b.wheel.ring, b.wheel.model, s.state->ring))
+    if (!study::is_saved(b.setup, b.wheel, s.state->ring))
       throw request_error("state", "", "is of another wheel", "one of this FMU");
-    b.integrator->restore(*s.state);
+    b.run->restore(*s.state);
   }
   b.contact = {};
-  b.hub = {s.velocity_x, s.velocity_y, s.angular_velocity};
+  b.hub = s.hub;
   values = s.values;
 }
 

@@ -12,6 +12,7 @@
 #include "rondo/fmu/values.hpp"
 #include "rondo/model/saved_state.hpp"
 #include "rondo/output/run_options.hpp"
+#include "rondo/rom/solid_wheel_run.hpp"
 
 namespace rondo::fmu {
 
@@ -20,7 +21,7 @@ struct SavedWheel {
   Values values;
   Values start;     ///< with which the wheel was made
   double dt = 0.0;  ///< internal step used; 0: no step was made                                [s]
-  double velocity_x = 0.0, velocity_y = 0.0, angular_velocity = 0.0;  ///< at the last step's end
+  rom::HubVelocity hub;                       ///< at the last step's end
   std::optional<dynamics::SavedState> state;  ///< step, ring and ledger; none: no step was made
 };
 
@@ -34,6 +35,7 @@ class Wheel {
 
   /// Refuses what an FMU of the wheel does not support. @throws InputError, FileError
   void check();
+  [[nodiscard]] Dimension dimension() const;
   /// Largest internal step [s], number of modes. @pre begin()
   [[nodiscard]] double step() const noexcept;
   [[nodiscard]] int n_modes() const;
@@ -66,7 +68,6 @@ class Wheel {
 
  private:
   struct Body;
-  struct Sums;
   void make_integrator(double dt);
   [[nodiscard]] std::string refuse_length(double length, double slack) const;
   [[nodiscard]] double first_step(double length) const;
@@ -74,10 +75,9 @@ class Wheel {
   [[nodiscard]] static std::string passed_text(double sectors, double dt);
   void warn_of_step(const Values& values, double dt);
   [[nodiscard]] std::string make_steps(const Values& values, long long n);
-  void fill(const Values& from, double length, Values& to) const;
   void warn(std::string text);
   void warn_of_spin(const Values& values);
-  [[nodiscard]] std::string trouble() const;
+  [[nodiscard]] std::string trouble(const dynamics::StepReport& made) const;
 
   const study::Case case_;
   const study::RunOptions options_;

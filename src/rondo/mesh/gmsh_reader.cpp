@@ -10,11 +10,13 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <sstream>
 #include <utility>
 
 #include "rondo/core/files/regular_file.hpp"
 #include "rondo/mesh/gmsh_draft.hpp"
+#include "rondo/mesh/kept_mesh.hpp"
 
 namespace rondo::mesh {
 namespace {
@@ -84,6 +86,8 @@ MeshFile inspect(const std::filesystem::path& file) {
 
 ReadMesh read_gmsh(const MeshRequest& request) {
   check_request(request);
+  if (const std::optional<KeptMesh> kept = read_kept_mesh(request.file))
+    return mesh_of(kept->mesh, kept->version_22, request);
   const MeshFile file = inspect(request.file);
   return mesh_of(read_raw_mesh(request.file, file.bytes), file.version_22, request);
 }

@@ -38,14 +38,17 @@ WheelModel make_solid_model(const SolidRing& ring, std::vector<RingHarmonic> har
 
 SolidWheelRun::SolidWheelRun(const dynamics::Model& model, const SolidRing& ring,
                              const WheelModel& wheel, double law_residual, WheelFigures& figures,
-                             const dynamics::State& at_start)
+                             const dynamics::State& at_start, const HubStart& hub)
     : model_(model),
       ring_(ring),
       law_residual_(law_residual),
       figures_(figures),
       candidate_(dynamics::places_among(model.contact->nodes, model.n_nodes())),
       wheel_(ring, wheel, *model.contact, settings_of(model, law_residual)),
-      camber_(model.motion.camber) {
+      aside_(hub.aside),
+      camber_(model.motion.camber),
+      camber_rate_(hub.camber_rate),
+      yaw_rate_(hub.yaw_rate) {
   RONDO_DEMAND(model.dt > 0.0 && model.solid, model.dt);
   active_.reserve(model.contact->nodes.size());
   if (model.rim) rim_.emplace(model, SolidWheelSettings{}.theta, wheel.largest_spin);
@@ -103,8 +106,8 @@ SolidMotion SolidWheelRun::motion_of(long long step) const {
   const Vec3 way = of.advance(t, dt), center = of.center(end);
   m.center_next = center.plane();
   m.center = m.center_next - way.plane();
-  motion.lateral_next = center.z;
-  motion.lateral = center.z - way.z;
+  motion.lateral_next = aside_ + center.z;
+  motion.lateral = motion.lateral_next - way.z;
   const Vec3 pull = (way - of.advance(t - dt, dt)) / (dt * dt);
   m.pull = pull.plane() - of.gravity_at(t + 0.5 * dt);
   motion.lateral_pull = pull.z;
@@ -213,7 +216,7 @@ SolidWheelReport SolidWheelRun::step_on_rim(dynamics::Works& works) {
   const double momentum = wheel.lateral_momentum,
                held = rim_->whole_mass() * change + momentum - lateral_momentum_;
   const double force = theta * wheel.end.force.z + (1.0 - theta) * lateral_force_;
-  works.held += mean * (held - dt * force);
+  works.held += mean * (held - dt * force) + wheel.turning_inertia - wheel.turning_work;
   works.scheme += change * (0.5 * (momentum + lateral_momentum_) - wheel.lateral_middle) +
                   dt * force * mean - wheel.lateral_work;
   const dynamics::RimReport& rim = rim_->report();

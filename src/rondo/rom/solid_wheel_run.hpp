@@ -24,6 +24,12 @@ struct HubVelocity {
   double camber_rate = 0.0, yaw_rate = 0.0;  ///< of WheelAttitude                        [rad/s]
 };
 
+/// What the tables do not say of a hub that is led, at t = 0.
+struct HubStart {
+  double aside = 0.0;                        ///< place of the center along t2                [m]
+  double camber_rate = 0.0, yaw_rate = 0.0;  ///< [rad/s]
+};
+
 /// What a hub felt in the last step; along its heading, out of the ground, and to the right.
 struct HubReport {
   Vec3 held;            ///< force that held it against the ground and the inertia of the wheel [N]
@@ -37,7 +43,8 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
   /// All but the state must outlive it. @param model dt: that of the reduced step
   /// @param at_start u and v at t = 0, co-rotating frame; what is outside of the modes is lost
   SolidWheelRun(const dynamics::Model& model, const SolidRing& ring, const WheelModel& wheel,
-                double law_residual, WheelFigures& figures, const dynamics::State& at_start);
+                double law_residual, WheelFigures& figures, const dynamics::State& at_start,
+                const HubStart& hub = {});
 
   /// Number of numbers in SavedState::ring.
   [[nodiscard]] static std::size_t n_numbers(const dynamics::Model& model, const SolidRing& ring,
@@ -87,11 +94,12 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
   SolidWheel wheel_;
   std::optional<WheelRim> rim_;
   dynamics::Ledger ledger_;
+  const double aside_;         ///< place of the center along t2 at t = 0          [m]
   long long n_ = 0;            ///< number of steps made
   double camber_, yaw_ = 0.0;  ///< [rad]
   // Of a hub that is led:
   std::optional<HubVelocity> led_;
-  double camber_rate_ = 0.0, yaw_rate_ = 0.0;  ///< at the end of the last step        [rad/s]
+  double camber_rate_, yaw_rate_;  ///< at the end of the last step                    [rad/s]
   HubReport hub_;
   // Along t2, of a rim that moves:
   double lateral_ = 0.0;           ///< velocity                                       [m/s]

@@ -195,8 +195,7 @@ void SolidWheel::move_modes(const SolidMotion& motion) {
   const double spin = (m.angle_next - m.angle) / settings_.dt;
   const Vec3 pull = motion.attitude_next.from_fixed(Vec3(m.pull, motion.lateral_pull));
   const Complexes back(pull.x, -pull.y);  // conj
-  const Complexes turning(motion.turning.x, -motion.turning.y),
-      turning_rate(motion.turning_rate.x, -motion.turning_rate.y);
+  const Complexes tilting = motion.tilting(spin);
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     Modes& s = modes_[h];
     const RingHarmonic& of = harmonics_[h];
@@ -207,7 +206,7 @@ void SolidWheel::move_modes(const SolidMotion& motion) {
           spin * spin * of.reference - m.spin_rate * of.turned - pull.z * of.axial + of.load;
     if (of.k == 1) {
       s.outside -= 0.5 * back * of.translation.conjugate();
-      s.outside -= (spin * turning - Complexes(0.0, 0.5) * turning_rate) * of.tilt;
+      s.outside -= tilting * of.tilt;
     }
     if (m.kept_spin) s.outside.noalias() -= m.spin_rate * (of.coriolis * s.state.head(r));
     s.before = s.state;

@@ -38,6 +38,11 @@ struct SolidMotion {
   /// [rad/s], [rad/s²]
   Vec2 turning, turning_rate;
 
+  /// What these do to the shapes RingHarmonic::tilt of the harmonic 1 at the spin of the step.
+  [[nodiscard]] std::complex<double> tilting(double spin) const noexcept {
+    return spin * std::complex<double>(turning.x, -turning.y) -
+           std::complex<double>(0.0, 0.5) * std::complex<double>(turning_rate.x, -turning_rate.y);
+  }
   [[nodiscard]] Vec3 center() const noexcept { return {plane.center, lateral}; }
   [[nodiscard]] Vec3 center_next() const noexcept { return {plane.center_next, lateral_next}; }
 };
@@ -65,9 +70,12 @@ struct SolidWheelReport {
   /// Of a rim that moves: SolidWheel::lateral_momentum at the end, and its mean in the step [N s]
   double lateral_momentum = 0.0, lateral_middle = 0.0;
   double lateral_work = 0.0;  ///< of the force at the end along t2, part of WheelEnergy::rim [J]
-  double load = 0.0;          ///< work of the constant loads on the modes             [J]
-  WheelEnergy energy;         ///< [J]
-  int candidates = 0;         ///< nodes whose contact was solved
+  /// Of a hub that turns about the axes of the ground: work of the moment at the end on it, part of
+  /// WheelEnergy::rim, and of the inertia that this causes on the modes [J]
+  double turning_work = 0.0, turning_inertia = 0.0;
+  double load = 0.0;   ///< work of the constant loads on the modes             [J]
+  WheelEnergy energy;  ///< [J]
+  int candidates = 0;  ///< nodes whose contact was solved
   int iterations = 0;
   bool by_newton = false;
   bool late = false;  ///< μ is that by the step before: that by the step itself was not found
@@ -230,6 +238,7 @@ class SolidWheel {
   void account_modes(const SolidMotion& motion, SolidWheelReport& report) const;
   void account(const SolidMotion& motion, SolidWheelReport& report);
   [[nodiscard]] double work_on_modes() const;
+  [[nodiscard]] double work_of_turning(const SolidMotion& motion) const;
   void remember(const SolidMotion& motion);
   void begin(const SolidMotion& motion);
   void press_at_start(const SolidMotion& motion, std::span<const Vec3> u);

@@ -34,6 +34,22 @@ double SolidWheel::work_on_modes() const {
   return settings_.dt * ring_.n_sectors() * power;
 }
 
+/// Work on the modes of the inertia that a turning hub causes.
+double SolidWheel::work_of_turning(const SolidMotion& motion) const {
+  const WheelMotion& m = motion.plane;
+  const double spin = (m.angle_next - m.angle) / settings_.dt;
+  const Complexes tilting = motion.tilting(spin);
+  double power = 0.0;
+  for (std::size_t h = 0; h < modes_.size(); ++h) {
+    const RingHarmonic& of = harmonics_[h];
+    if (of.k != 1) continue;
+    const Index r = of.squares.size();
+    const auto middle = 0.5 * (modes_[h].before.tail(r) + modes_[h].state.tail(r));
+    power -= of.weight() * (tilting * middle.dot(of.tilt)).real();
+  }
+  return settings_.dt * ring_.n_sectors() * power;
+}
+
 /// Energy of the modes and what is done to them, but for the forces of the ground.
 void SolidWheel::account_modes(const SolidMotion& motion, SolidWheelReport& report) const {
   WheelEnergy& e = report.energy;
@@ -105,9 +121,11 @@ void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
     e.friction -= 0.5 * ((before.y + c.force.y) * c.moved.y + (before.z + c.force.z) * c.moved.z);
     if (was.known > 0 && was.gap[0] > 0.0) e.arrival += c.force.x * (was.gap[0] - c.moved.x);
   }
+  report.turning_work =
+      dt * dot(report.end.moment, motion.attitude_next.to_fixed(Vec3(motion.turning)));
+  report.turning_inertia = m.kept_spin ? work_of_turning(motion) : 0.0;
   e.rim = dot(report.end.force, motion.center_next() - motion.center()) +
-          (m.angle_next - m.angle) * report.torque +
-          dt * dot(report.end.moment, motion.attitude_next.to_fixed(Vec3(motion.turning)));
+          (m.angle_next - m.angle) * report.torque + report.turning_work;
   report.lateral_work = report.end.force.z * (motion.lateral_next - motion.lateral);
   e.scheme = work_on_modes() + 0.5 * (end - start) + e.by_residual + e.friction + e.arrival + e.rim;
   if (m.kept_spin) e.scheme += by_table;

@@ -260,7 +260,7 @@ void SolidWheel::accelerate_modes(const RimVector& z, const SolidMotion& m) {
 WheelRim::End SolidWheel::end_of(const SolidWheelReport& report, const SolidMotion& m) {
   WheelRim::End end;
   end.force = force_on_rim(m);
-  end.rim_work = report.energy.rim - report.lateral_work;
+  end.rim_work = report.energy.rim - report.lateral_work - report.turning_work;
   end.sums = sums(m);
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     Modes& s = modes_[h];
@@ -307,12 +307,14 @@ SolidWheelReport SolidWheel::step(long long n, WheelRim& rim, SolidMotion& m,
   m.plane = rim.moved();
   take_forces(m, report);
   account(m, report);
-  rim.finish(end_of(report, m), works);
-  report.lateral_momentum = lateral_momentum(m, m.plane.spin_next);
   const double spin = (m.plane.angle_next - m.plane.angle) / settings_.dt;
   const Complex turned = rotation(m.plane.angle_next - waves_at(m.plane));
   const Vec3 moment =
       0.5 * (momentum_of(&Modes::before, true) + turned * momentum_of(&Modes::state, true));
+  WheelRim::End end = end_of(report, m);
+  end.aside = m.lateral_pull * m.attitude_next.to_fixed(quarter_turn(moment)).z;
+  rim.finish(end, works);
+  report.lateral_momentum = lateral_momentum(m, m.plane.spin_next);
   report.lateral_middle =
       m.attitude_next.to_fixed(momentum_of(&Modes::work, false) + spin * quarter_turn(moment)).z;
   turn_modes(m.plane.angle_next - waves_at(m.plane));

@@ -252,7 +252,7 @@ void WheelRim::finish(const End& end, dynamics::Works& works) {
   const Vec2 moment = 0.5 * (sums_.moment + end.sums.moment);
   RimVector force =
       outside(v, 0.5 * (m.center + m.center_next)) + theta_ * end.force + (1.0 - theta_) * force_;
-  force[2] -= cross(moment, plane(change) / dt - gravity_) - aside_ * moment.x;
+  force[2] -= cross(moment, plane(change) / dt - gravity_) + end.aside;
   if (brake_ == Brake::slips) force[2] -= braking_ * direction_;
   const RimVector after = momentum_of(end_, end.sums);
   RimVector missed = after - actual_ - dt * force, held = RimVector::Zero();

@@ -98,6 +98,7 @@ class WheelRim {
     double rim_work = 0;  ///< of the ground on the rim as WheelEnergy::rim                  [J/m]
     Vec2 middle;          ///< Σ m R w of the mean velocity                              [kg/s]
     double swirl = 0.0;   ///< Σ m u × w of mean velocity and the u that the step used [kg·m/s]
+    double aside = 0.0;  ///< torque that WheelSums::moment takes by an acceleration along t2 [N·m]
   };
   /// Finishes the step: adds its works, all but those of contact and of internal forces.
   void finish(const End& end, dynamics::Works& works);
