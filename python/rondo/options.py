@@ -12,6 +12,7 @@ OPTIONS: dict[str, dict[str, tuple[str, str]]] = {
         "modes": ("int | None = None", "Number of modes of a reduced wheel made of the case; chosen by its step if left out"),
         "estimate": ("bool = False", "Runs a reduced wheel again, with half the step and with twice the modes, and tells how far its mean forces differ"),
         "reduced_step": ("float | None = None", "Step of a reduced wheel [s]; chosen by spin and contact if left out"),
+        "law_residual": ("float | None = None", "Largest residual of the law of contact of a reduced wheel in three dimensions, over the largest force; 1e-6 if left out"),
     },
     "modes": {
         "count": ("int | None = None", "Number of modes at each spin, besides rigid-body motions; default 20; 1 to 100000"),

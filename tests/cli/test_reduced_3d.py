@@ -165,6 +165,36 @@ class Reduced(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual((one / "history.csv").read_bytes(), (two / "history.csv").read_bytes())
 
+    def test_the_estimate_has_what_is_aside(self):
+        told = self.results("estimate", CORNERING, FEW, "time.end=0.06", options=("--estimate",))[1]["wheel_estimate"]
+        for name in "force_lateral", "moment_aligning":
+            self.assertNotEqual(told[name], 0.0)
+            self.assertLess(abs(told[name]), 0.02)
+
+    def test_what_a_run_is_warned_of(self):
+        for given, words in (
+                (['ground.friction={coefficient = 0.6, slip_speed = [[0, 1.3], [0.4, 1], [3, 0.5]]}'], "falls with the slip"),
+                (["damping.mass=3000"], "larger than the lowest one"),
+                (["motion.camber=0.1"], "out of it after the first step")):
+            warned = self.results("warned", CORNERING, FEW, "time.end=0.005", *given)[2]
+            self.assertIn(words, warned)
+            self.assertEqual(warned.count("warning"), 1, warned)
+        told = run("check", LOAD, "--reduced").stderr
+        self.assertIn("the full run, without --reduced, is faster", told)
+        self.assertIn("times that of the reduced wheel", run("check", TYRE, "--reduced").stdout)
+
+    @unittest.skipIf(SANITIZED, "minutes")
+    def test_a_tyre_corners_as_in_steady_rolling(self):
+        """On an axle; both to 1 % of F_n, also where most of the contact slides."""
+        like = "section.sectors=90", "damping.mass=100", "damping.stiffness=2e-6"
+        for angle in (math.radians(2.0), math.radians(6.0)):
+            reduced = self.results("tyre", TYRE.with_name("tyre-load.toml"), FEW, "time.end=0.3",
+                                   f"motion.slip_angle=[[0, 0], [0.02, 0], [0.08, {angle}]]")[0]
+            steady = self.results("steady", TYRE.with_name("tyre-cornering.toml"), f"motion.slip_angle={angle}", *like,
+                                  reduced=False)[1]["steady"]
+            for name in FORCES:
+                self.assertLess(abs(self.mean(reduced, name, 0.25) - steady[name]), 0.01 * steady["force_y"], name)
+
     @unittest.skipIf(SANITIZED, "minutes")
     def test_a_tyre_rolls_as_in_steady_rolling(self):
         reduced = self.results("tyre", TYRE, FEW, "time.end=0.15", "output.history_interval=0")[0]
@@ -178,6 +208,7 @@ class Reduced(ProgramTest):
                 (TYRE, ['inflation.nonlinear="cords"'], (), "inflation.nonlinear"),
                 (CORNERING, ["material.viscosity=[{relative_modulus=0.3,time=1e-3}]"], (), "viscous branches"),
                 (CORNERING, ["ground.restitution=0.5"], (), "restitution"),
+                (ROOT / "cases" / "wheel3d-tyre.toml", [], (), "load.pressure[0].value"),
                 (CORNERING, [], ("--law-residual", "1"), "1e-12 to 0.001"),
                 (ROOT / "cases" / "rolling-flat.toml", [], ("--law-residual", "1e-6"), "three dimensions")):
             done = run("run", case, "-o", self.folder / "refused", "--reduced", *options, *settings(*given))

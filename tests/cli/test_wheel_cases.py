@@ -13,7 +13,7 @@ CASES = sorted(path for path in (ROOT / "cases").glob("*.toml") if "\n[rim]\n" i
 EXPECTED = {"wheel-settle", "wheel-rolling", "wheel-driven", "wheel-braked", "wheel-lock", "wheel-abs",
             "wheel-incline", "wheel-drop", "wheel-landing", "cleat-load", "cleat-height",
             "cleat-load-treaded", "cleat-height-treaded", "pothole-load", "rolling-cobbles", "sine-road-load",
-            "quarter-car", "quarter-car-bump", "rubber-tyre", "tyre-load", "wheel-mu-jump",
+            "quarter-car", "quarter-car-bump", "rubber-tyre", "tyre-lane-change", "tyre-load", "wheel-mu-jump",
             "wheel3d-cobbles", "wheel3d-load", "wheel3d-mu-split"}
 SHORT = "0.02"  # s: the load is on, all but the dropped wheel touch the ground
 LEDGER = 1e-12

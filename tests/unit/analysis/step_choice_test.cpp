@@ -32,6 +32,7 @@ const std::map<std::string, StepKind> others{
     {"two-disks", StepKind::bodies},
     {"two-steps", StepKind::hati},
     {"tyre-cleat", StepKind::solid_cyclic},
+    {"tyre-lane-change", StepKind::solid_cyclic},
     {"tyre-load", StepKind::solid_cyclic},
     {"tyre-rolling", StepKind::solid_cyclic},
     {"tyre-section", StepKind::bodies},

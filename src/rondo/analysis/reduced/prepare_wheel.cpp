@@ -43,6 +43,7 @@ double radius_of(const Setup& setup) {
 /// How many contact nodes of a wheel with a width come by, one after the other, in a turn: those
 /// of a sector that are beside each other count once.
 double columns_around(const Setup& setup) {
+  constexpr double beside = 0.1;  // of a sector: the twist of inflated cords is less
   std::vector<double> angles;
   for (const int node : setup.model.contact->nodes) {
     if (setup.mesh.sector[at(node)] != 0) continue;
@@ -53,7 +54,7 @@ double columns_around(const Setup& setup) {
   const double pitch = 2.0 * std::numbers::pi / setup.mesh.n_sectors;
   int columns = angles.empty() ? 0 : 1;
   for (std::size_t i = 1; i < angles.size(); ++i)
-    columns += angles[i] - angles[i - 1] > 1e-3 * pitch ? 1 : 0;
+    columns += angles[i] - angles[i - 1] > beside * pitch ? 1 : 0;
   return static_cast<double>(columns) * setup.mesh.n_sectors;
 }
 
@@ -272,10 +273,10 @@ void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
         "the "
         "more the smaller the step, and friction may be off by several per cent: compare with "
         "another --reduced-step (--estimate), or with the full run, without --reduced");
-  if (const double lowest = w.lowest(); w.solid && setup.model.mass_damping > 0.1 * lowest)
+  if (const double lowest = w.lowest(); w.solid && setup.model.mass_damping > lowest)
     warn(fmt::format(
         "damping.mass = {:.4g} 1/s acts on the modes of a reduced wheel alone, and is "
-        "not small beside the lowest one, of {:.4g} rad/s: more --modes feel it; or the "
+        "larger than the lowest one, of {:.4g} rad/s: more --modes feel it; or the "
         "full run, without --reduced",
         setup.model.mass_damping, lowest));
   if (!w.model.one_matrix.empty())
