@@ -274,11 +274,11 @@ void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
         "more the smaller the step, and friction may be off by several per cent: compare with "
         "another --reduced-step (--estimate), or with the full run, without --reduced");
   if (const double lowest = w.lowest(); w.solid && setup.model.mass_damping > lowest)
-    warn(fmt::format(
-        "damping.mass = {:.4g} 1/s acts on the modes of a reduced wheel alone, and is "
-        "larger than the lowest one, of {:.4g} rad/s: more --modes feel it; or the "
-        "full run, without --reduced",
-        setup.model.mass_damping, lowest));
+    warn(
+        fmt::format("damping.mass = {:.4g} 1/s acts on the modes of a reduced wheel alone, and is "
+                    "larger than the lowest one, of {:.4g} rad/s: more --modes feel it; or the "
+                    "full run, without --reduced",
+                    setup.model.mass_damping, lowest));
   if (!w.model.one_matrix.empty())
     warn(
         fmt::format("the material is so viscous at {:.4g} rad/s that in {} harmonics, from {} on, "
