@@ -79,7 +79,8 @@ def _check(outcome: tuple[str, str], directory: pathlib.Path) -> None:
 def run(case: Place, output: Place | None = None, settings: Mapping[str, Any] | None = None, *,
         overwrite: bool = False, resume: bool = False, threads: int | None = None,
         reduced: Place | None = None, modes: int | None = None, estimate: bool = False,
-        reduced_step: float | None = None, modes_from: Place | None = None,
+        reduced_step: float | None = None, law_residual: float | None = None,
+        modes_from: Place | None = None,
         arguments: Sequence[str | os.PathLike[str]] = ()) -> Run:
     """Runs a case in this process (`rondo run`) and opens its results. `output`: results directory;
     by default the case's name in the working folder. `settings`: keys of the case, as

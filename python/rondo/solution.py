@@ -87,7 +87,8 @@ class Solution:
 @documented("run")
 def solve(case: Place, settings: Mapping[str, Any] | None = None, *, threads: int | None = None,
           reduced: Place | None = None, modes: int | None = None, estimate: bool = False,
-          reduced_step: float | None = None, modes_from: Place | None = None) -> Solution:
+          reduced_step: float | None = None, law_residual: float | None = None,
+          modes_from: Place | None = None) -> Solution:
     """Solves a case of any analysis in this process and keeps what it finds in memory: no files,
     the same numbers as `rondo run`, but for the stress. output.snapshots says how many snapshots.
     A failure of the numerics is a NumericalError, a wrong case an InputError."""

@@ -46,6 +46,7 @@ NOT_RUN = [
     ("docs/performance.md", "cmake --build build/release --target bench_solid"),
     ("docs/python.md", "python3 -m venv --system-site-packages env"),
     ("docs/python.md", "cmake --install build/release"),
+    ("docs/reduced3d.md", "rondo run cases/tyre-lane-change.toml"),
     ("docs/reliability.md", "build/release/tests/verification/verification_long"),
     ("docs/reliability.md", "rondo run cases/long-spin.toml"),
     ("docs/reliability.md", "bash scripts/fuzz.sh"),
