@@ -81,6 +81,8 @@ class Members(ProgramTest):
         self.made("tyre", "run", ROOT / "cases" / "tyre-inflation.toml", "--set", "section.sectors=12")
         self.made("failed", "run", case, "--set", "initial.velocity=[1e20, 0]", code=3)
         self.made("wheel-of-case", "run", case, "--reduced", "--estimate", "--set", BRIEF)
+        self.made("wheel-in-space", "run", case, "--reduced", "--modes", 5, "--set", BRIEF,
+                  *(part for text in WIDE for part in ("--set", text)))
         self.made("wheel-in-the-air", "run", case, "--reduced", "--estimate", "--set", BRIEF, "--set",
                   "motion.height=0.4")
         self.made("modes", "modes", case, "--count", "2", "--diameters", "2")

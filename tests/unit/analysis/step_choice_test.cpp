@@ -41,6 +41,7 @@ const std::map<std::string, StepKind> others{
     {"wheel3d-cleat", StepKind::solid_cyclic},
     {"wheel3d-cleat-sharp", StepKind::solid_cyclic},
     {"wheel3d-cleat-30", StepKind::solid_cyclic},
+    {"wheel3d-car", StepKind::solid_cyclic},
     {"wheel3d-cleats", StepKind::solid_cyclic},
     {"wheel3d-cobbles", StepKind::solid_cyclic},
     {"wheel3d-cornering", StepKind::solid_cyclic},

@@ -22,7 +22,7 @@ bool is_refused(Features all) {
 TEST(StepTable, HasItsStepsInTheirOrder) {
   for (std::size_t k = 0; k < step_rows().size(); ++k)
     EXPECT_EQ(static_cast<std::size_t>(step_rows()[k].kind), k);
-  EXPECT_EQ(static_cast<std::size_t>(StepKind::reduced) + 1, step_rows().size());
+  EXPECT_EQ(static_cast<std::size_t>(StepKind::solid_reduced) + 1, step_rows().size());
 }
 
 TEST(StepTable, NamesEachFeatureAndEachLimitOfSomeSteps) {

@@ -53,6 +53,8 @@ constexpr std::array names{
     FeatureName{has::reduced, "reduced wheel"},
     FeatureName{has::reduced | has::loaded_rim, "reduced wheel on a rim that forces move"},
     FeatureName{has::reduced | has::viscosity, "reduced wheel of a viscous material"},
+    FeatureName{has::reduced | has::pressure, "reduced wheel with pressures"},
+    FeatureName{has::reduced | has::nonlinear_cords, "reduced wheel with nonlinear cords and air"},
 };
 
 constexpr std::array steps{
