@@ -198,7 +198,8 @@ void SolidWheelRun::turn_hub(SolidMotion& motion) {
 /// A step on a rim that moves along t1 and n, and along t2 as its tables say. The velocity along t2
 /// goes to its new value in the step; what holds it does the work of force and inertia.
 SolidWheelReport SolidWheelRun::step_on_rim(dynamics::Works& works) {
-  const double dt = model_.dt, before = lateral_, theta = SolidWheelSettings{}.theta;
+  const double dt = model_.dt, before = lateral_;
+  const double theta = settings_of(model_, law_residual_).theta;
   SolidMotion motion = motion_of(n_);
   turn_hub(motion);
   Vec3 aim{0.0, 0.0, lateral_rate(static_cast<double>(n_) * dt)};
