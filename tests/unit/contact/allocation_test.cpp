@@ -2,10 +2,15 @@
 /// Coupled contact allocates nothing once its memory has held the largest problem.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
+#include <vector>
+
 #include "rondo/contact/coupled/clusters.hpp"
 #include "rondo/contact/residual.hpp"
 #include "rondo/contact/search.hpp"
 #include "rondo/contact/segment.hpp"
+#include "rondo/contact/space/obstacle_ground.hpp"
 #include "rondo/contact/space/road_ground.hpp"
 #include "support/allocations.hpp"
 #include "support/contact_problems.hpp"
@@ -91,6 +96,24 @@ TEST(Allocation, NoneOnARoad) {
   EXPECT_EQ(allocations() - before, 0);
   EXPECT_GT(touched, 10);
   EXPECT_LT(touched, 90);
+}
+
+TEST(ObstacleGround, AllocatesNothing) {
+  const auto waves = [](double u, double v) { return 0.01 * std::sin(4.0 * u) + 0.05 * v; };
+  std::vector<double> v;
+  for (int j = -40; j <= 40; ++j) v.push_back(0.0125 * j);
+  const auto road = std::make_shared<const RoadGround>(
+      road::Surface(test::road_by(waves, -1.0, 0.0125, 161, v)), RoadPlacing{});
+  const ObstacleGround ground(
+      road, std::vector{Obstacle{ObstacleKind::cleat, 0.1, 0.02, 0.06, 0.5, 0.008},
+                        Obstacle{ObstacleKind::pothole, 0.4, 0.03, 0.08, -0.4, 0.01}});
+  const auto before = allocations();
+  int touching = 0;
+  for (int k = 0; k < 1000; ++k)
+    touching +=
+        ground.touches({-0.1 + 0.0007 * k, 0.01 * std::sin(17.0 * k), 0.0001 * k - 0.05}).count;
+  EXPECT_EQ(allocations(), before);
+  EXPECT_GT(touching, 100);
 }
 
 }  // namespace allocation_test

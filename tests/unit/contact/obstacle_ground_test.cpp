@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "rondo/contact/space/road_ground.hpp"
-#include "support/allocations.hpp"
 #include "support/crg_files.hpp"
 
 namespace obstacle_ground_test {
@@ -200,16 +199,6 @@ TEST(ObstacleGround, AStepChangesTheLevelForTheOthers) {
   const SpaceTouches behind = ground.touches({0.3, 0.0149, 0.0});
   ASSERT_EQ(behind.count, 1);
   EXPECT_NEAR(behind.at[0].gap, -1e-4, 1e-15);
-}
-
-TEST(ObstacleGround, AllocatesNothing) {
-  const ObstacleGround ground(road_of(waves), std::vector{cleat, pothole});
-  const auto all = places(1000, -0.03, 0.02);
-  const auto before = test::allocations();
-  int touching = 0;
-  for (const Vec3 place : all) touching += ground.touches(place).count;
-  EXPECT_EQ(test::allocations(), before);
-  EXPECT_GT(touching, 100);
 }
 
 }  // namespace obstacle_ground_test
