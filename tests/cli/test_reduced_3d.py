@@ -66,6 +66,15 @@ class Reduced(ProgramTest):
         self.assertLess(abs(found - lateral["waves"]), 0.001 * 17900.0)
         self.assertGreater(abs(found - lateral["all"]), 0.002 * 17900.0)
 
+    def test_at_speed_the_compliance_alone_has_the_inertia_of_the_pattern(self):
+        """Without modes, at 0.85 of the critical spin."""
+        fast = "motion.speed=25", "motion.angular_velocity=84.4"
+        reduced = self.results("fast", CORNERING, FEW, *fast, "output.history_interval=0", "time.end=0.1",
+                               options=("--modes", "0"))[0]
+        steady = self.results("steady", STEADY, *fast, 'analysis.inertia="waves"', "analysis.samples_per_sector=8",
+                              reduced=False)[1]["steady"]
+        self.assertLess(abs(self.mean(reduced, "force_y", 0.06) / steady["force_y"] - 1.0), 1e-3)
+
     def test_more_modes_carry_that_inertia(self):
         few, many = (self.results("modes", CORNERING, FEW, "output.history_interval=0", "time.end=0.1",
                                   options=("--modes", modes))[0] for modes in (40, 300))
