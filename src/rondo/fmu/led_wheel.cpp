@@ -67,7 +67,7 @@ class PlaneWheel final : public LedWheel {
   void restore(const dynamics::SavedState& saved) override { run_.restore(saved); }
 
  private:
-  /// Of the steps of an interval.
+  /// What the steps since the last communication point have added up.
   struct Sums {
     Vec2 held, contact;  ///< forces [N/m]
     double torque = 0.0;
@@ -147,7 +147,8 @@ class SpaceWheel final : public LedWheel {
   void restore(const dynamics::SavedState& saved) override { run_.restore(saved); }
 
  private:
-  /// Of the steps of an interval, along the heading, out of the ground, and to the right.
+  /// What the steps since the last communication point have added up. Components are along the
+  /// heading, out of the ground, and to the right.
   struct Sums {
     Vec3 force, moment, contact, contact_moment;  ///< [N], [N m]
     double torque = 0.0;

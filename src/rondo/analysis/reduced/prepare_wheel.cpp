@@ -26,7 +26,7 @@ constexpr double beyond_whole = 0.618;     ///< so that nodes are seen at all th
 constexpr double steps_in_contact = 20.0;  ///< while a node passes it
 constexpr int few_modes_of_mesh = 20;
 constexpr int most_modes = 40, most_modes_of_tread = 90, fewest_modes = 10;
-/// Of a wheel in three dimensions where the ground is not flat.
+/// A wheel in three dimensions takes so many where the ground is not flat.
 constexpr int most_modes_on_bumps = 200;
 constexpr double highest_mode = 1.5;      ///< ω Δt of the modes that are taken
 constexpr double speed_from_rest = 60.0;  ///< that a wheel from rest may come to         [m/s]

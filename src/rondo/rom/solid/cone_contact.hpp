@@ -41,7 +41,8 @@ struct ConeLocal {
 /// μ of a contact by its number, the distance slid and the normal force [m], [N].
 using ConeFriction = std::function<double(std::size_t, double, double)>;
 
-/// The same with a coefficient that follows the slip and the force; finds it as well.
+/// Finds the force of one contact together with its coefficient, which depends on the slip and the
+/// force, and leaves the coefficient in the contact.
 /// @param number of the contact
 [[nodiscard]] Eigen::Vector3d solve_following(const ConeFriction& friction, std::size_t number,
                                               ConeLocal& contact, const Eigen::Vector3d& free);

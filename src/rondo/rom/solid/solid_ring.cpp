@@ -180,11 +180,6 @@ RingHarmonic lowest(const SolidRing& ring, const RingHarmonic& of, Index n) {
   return make_harmonic(ring, of.k, of.squares.head(n), of.shapes.leftCols(n));
 }
 
-const RingHarmonic* find_harmonic(std::span<const RingHarmonic> harmonics, int k) {
-  const auto found = std::ranges::find(harmonics, k, &RingHarmonic::k);
-  return found == harmonics.end() ? nullptr : &*found;
-}
-
 /// Z_k of the ring and of the modes, at the rate ks and the spin s.
 class Dynamic {
  public:

@@ -43,7 +43,8 @@ struct SolidRing {
 [[nodiscard]] std::vector<RingHarmonic> solid_modes(const SolidRing& ring,
                                                     const ModeChoice& choice);
 
-/// As ring_residual() in its convected form, without `fields`.
+/// Finds the tables that ring_residual() finds for a disk, in its convected form. `fields` of the
+/// result stays empty.
 [[nodiscard]] RingResidual solid_residual(const SolidRing& ring,
                                           std::span<const RingHarmonic> harmonics,
                                           double spin_squared);

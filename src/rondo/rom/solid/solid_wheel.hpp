@@ -67,11 +67,13 @@ struct SolidWheelReport {
   GroundForces end;   ///< at the end of the step
   GroundForces mean;  ///< θ of it and 1 - θ of that at its start: what moves modes and rim
   double torque = 0.0, mean_torque = 0.0;  ///< of these about the axle               [N m]
-  /// Of a rim that moves: SolidWheel::lateral_momentum at the end, and its mean in the step [N s]
+  /// A rim that moves needs SolidWheel::lateral_momentum at the end, and its mean in the step [N
+  /// s].
   double lateral_momentum = 0.0, lateral_middle = 0.0;
   double lateral_work = 0.0;  ///< of the force at the end along t2, part of WheelEnergy::rim [J]
-  /// Of a hub that turns about the axes of the ground: work of the moment at the end on it, part of
-  /// WheelEnergy::rim, and of the inertia that this causes on the modes [J]
+  /// The work that the moment at the end does on a hub that turns about the axes of the ground,
+  /// which is a part of WheelEnergy::rim, and the work that the inertia of this turning does on the
+  /// modes [J].
   double turning_work = 0.0, turning_inertia = 0.0;
   double load = 0.0;   ///< work of the constant loads on the modes             [J]
   WheelEnergy energy;  ///< [J]
@@ -278,7 +280,7 @@ class SolidWheel {
   const int n_contact_;  ///< C
   const bool flat_;
   std::vector<double> area_;  ///< (C) of the ground that a contact node presses          [m²]
-  // Of the spin:
+  // These members belong to the spin of the matrices.
   double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
   bool has_matrices_ = false, new_table_ = false, has_shift_ = false, on_moving_rim_ = false;
   std::vector<double> tables_;    ///< (N, 3C, 3C) G at a spin between those of the model [m/N]

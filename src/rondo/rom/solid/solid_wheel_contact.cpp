@@ -7,6 +7,7 @@
 #include "rondo/core/index.hpp"
 #include "rondo/model/solid/wheel_ground.hpp"
 #include "rondo/rom/solid/solid_wheel.hpp"
+#include "rondo/rom/wheel/landing.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
@@ -19,14 +20,6 @@ constexpr double near_share = 0.03;        ///< of the radius, above the ground:
 constexpr double candidate_share = 0.004;  ///< contact is solved
 constexpr double nothing = 1e-9;           ///< filtered forces below it are 0              [N]
 constexpr int most_turns = 3;              ///< of the normals, on ground that is not flat
-
-/// Smallest root in [0, 1] of g + b τ + a τ² = 0 with g > 0, a >= 0; 1: there is none.
-double landing_in(double g, double b, double a) noexcept {
-  if (b >= 0.0) return 1.0;
-  const double inside = b * b - 4.0 * a * g;
-  if (inside < 0.0) return 1.0;
-  return std::min(1.0, 2.0 * g / (-b + std::sqrt(inside)));
-}
 
 }  // namespace
 
@@ -122,7 +115,7 @@ Vec3 SolidWheel::distance(const Near& near, const SolidMotion& m) const noexcept
   if (was.known < 2 || was.force != Vec3{} || was.gap[0] <= 0.0) return way + free - x;
   const double dt = settings_.dt, spin = m.plane.spin_next;
   const double bend = 0.5 * spin * spin * model_.radius * dt * dt;
-  const double tau = landing_in(was.gap[0], was.gap[0] - was.gap[1] + bend, bend);
+  const double tau = landing(was.gap[0], was.gap[0] - was.gap[1] + bend, bend);
   const Vec3 change = x - was.place[1];
   const Vec3 second = was.known < 3 ? Vec3{} : x - 2.0 * was.place[1] + was.place[2];
   const Vec3 before = tau * (change + 0.5 * second) + 0.5 * tau * tau * second;

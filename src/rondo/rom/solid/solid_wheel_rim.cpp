@@ -5,6 +5,7 @@
 
 #include "rondo/core/index.hpp"
 #include "rondo/rom/solid/solid_wheel.hpp"
+#include "rondo/rom/wheel/rim_products.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
@@ -13,24 +14,6 @@ namespace {
 using Eigen::Index;
 using Complexes = std::complex<double>;
 
-/// Re(aᴴ b).
-template <class A, class B>
-double product_of(const A& a, const B& b) {
-  return a.dot(b).real();
-}
-/// Re((J y)ᴴ p) without temporary vectors.
-template <class Y, class P>
-double twisted_by(const Eigen::MatrixXcd& turn, const Y& y, const P& p) {
-  double sum = 0.0;
-  for (Index i = 0; i < turn.rows(); ++i)
-    for (Index j = 0; j < turn.cols(); ++j) sum += (std::conj(turn(i, j) * y[j]) * p[i]).real();
-  return sum;
-}
-/// conj(lᵀ x): the sum over the sectors that translates with the rim, over N.
-template <class X>
-Complexes along_rim(const RingHarmonic& h, const X& x) {
-  return std::conj((h.translation.transpose() * x)(0));
-}
 /// The unit vectors along t1 and n in the axes of the wheel.
 Vec3 ahead(const SolidMotion& m) noexcept {
   return m.attitude_next.from_fixed({1.0, 0.0, 0.0});

@@ -176,11 +176,6 @@ MatrixXcd unit_forces(const Ring& ring, const Parts& parts) {
   return forces;
 }
 
-const RingHarmonic* find_harmonic(std::span<const RingHarmonic> harmonics, int k) {
-  const auto found = std::ranges::find(harmonics, k, &RingHarmonic::k);
-  return found == harmonics.end() ? nullptr : &*found;
-}
-
 /// (rows) What the spin does beyond the modes. @param still of harmonic 0
 VectorXd by_spin(const Ring& ring, const RingHarmonic* h, const Dynamic& still, double square) {
   const VectorXcd pull = square * (masses(ring).asDiagonal() * reference(ring));
@@ -235,6 +230,11 @@ std::optional<CreepPair> exact_creep(const Ring& ring, const RingHarmonic* h, in
 }
 
 }  // namespace
+
+const RingHarmonic* find_harmonic(std::span<const RingHarmonic> harmonics, int k) {
+  const auto found = std::ranges::find(harmonics, k, &RingHarmonic::k);
+  return found == harmonics.end() ? nullptr : &*found;
+}
 
 Ring make_ring(const fem::SectorStiffness& stiffness, std::span<const double> mass,
                std::span<const Vec2> reference, std::span<const int> contact) {

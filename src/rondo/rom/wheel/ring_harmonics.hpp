@@ -81,6 +81,9 @@ struct ModeChoice {
 /// The harmonics that have modes, ascending.
 [[nodiscard]] std::vector<RingHarmonic> ring_modes(const Ring& ring, const ModeChoice& choice);
 
+/// The modes of harmonic k; null: it has none.
+[[nodiscard]] const RingHarmonic* find_harmonic(std::span<const RingHarmonic> harmonics, int k);
+
 /// Number of modes in the harmonics; a mode of k > 0 counts for two, as in ModeChoice.
 [[nodiscard]] int count_modes(std::span<const RingHarmonic> harmonics) noexcept;
 

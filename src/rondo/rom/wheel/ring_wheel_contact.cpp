@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rondo/core/index.hpp"
+#include "rondo/rom/wheel/landing.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
@@ -19,14 +20,6 @@ constexpr double candidate_share = 0.004;  ///< contact is solved
 constexpr double closed = -1e-14;          ///< gaps above it are closed to round-off       [m]
 constexpr double nothing = 1e-9;           ///< filtered forces below it are 0            [N/m]
 constexpr int most_turns = 3;              ///< of the normals, on ground that is not flat
-
-/// Smallest root in [0, 1] of g + b τ + a τ² = 0 with g > 0, a >= 0; 1: there is none.
-double landing(double g, double b, double a) noexcept {
-  if (b >= 0.0) return 1.0;
-  const double inside = b * b - 4.0 * a * g;
-  if (inside < 0.0) return 1.0;
-  return std::min(1.0, 2.0 * g / (-b + std::sqrt(inside)));
-}
 
 }  // namespace
 

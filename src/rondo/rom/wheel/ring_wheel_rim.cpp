@@ -3,6 +3,7 @@
 #include <complex>
 
 #include "rondo/core/index.hpp"
+#include "rondo/rom/wheel/rim_products.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
 #include "rondo/rom/wheel/ring_wheel.hpp"
 
@@ -15,24 +16,6 @@ using Complexes = std::complex<double>;
 Vec2 vec(const Complexes& x) noexcept {
   return {x.real(), x.imag()};
 }
-/// Re(aᴴ b).
-template <class A, class B>
-double product(const A& a, const B& b) {
-  return a.dot(b).real();
-}
-/// Re((J y)ᴴ p) without temporary vectors.
-template <class Y, class P>
-double twisted(const Eigen::MatrixXcd& turn, const Y& y, const P& p) {
-  double sum = 0.0;
-  for (Index i = 0; i < turn.rows(); ++i)
-    for (Index j = 0; j < turn.cols(); ++j) sum += (std::conj(turn(i, j) * y[j]) * p[i]).real();
-  return sum;
-}
-/// conj(lᵀ x): the sum over the sectors that translates with the rim, over N.
-template <class X>
-Complexes along(const RingHarmonic& h, const X& x) {
-  return std::conj((h.translation.transpose() * x)(0));
-}
 
 }  // namespace
 
@@ -44,14 +27,14 @@ WheelSums RingWheel::sums() const {
     const auto y = modes_[h].state.head(r), p = modes_[h].state.tail(r);
     const double n = of.weight() * ring_.n_sectors();
     sum.square += n * y.squaredNorm();
-    sum.swirl += n * twisted(of.coriolis, y, p);
+    sum.swirl += n * twisted_by(of.coriolis, y, p);
     if (of.k == 0) {
-      sum.swirl += n * product(of.turned, p);
-      sum.stretch += n * product(of.reference, y);
+      sum.swirl += n * product_of(of.turned, p);
+      sum.stretch += n * product_of(of.reference, y);
     }
     if (of.k != 1) continue;
-    sum.momentum += static_cast<double>(ring_.n_sectors()) * vec(along(of, p));
-    sum.moment += static_cast<double>(ring_.n_sectors()) * vec(along(of, y));
+    sum.momentum += static_cast<double>(ring_.n_sectors()) * vec(along_rim(of, p));
+    sum.moment += static_cast<double>(ring_.n_sectors()) * vec(along_rim(of, y));
   }
   return sum;
 }
@@ -99,11 +82,11 @@ Eigen::Matrix3d RingWheel::momenta_by_rate(double spin) const {
     const Index r = of.squares.size();
     const Modes& s = modes_[h];
     if (of.k == 0)
-      by(2, 2) += n * (product(of.turned, s.twist.tail(r)) +
-                       2.0 * spin * product(of.reference, s.twist.head(r)));
+      by(2, 2) += n * (product_of(of.turned, s.twist.tail(r)) +
+                       2.0 * spin * product_of(of.reference, s.twist.head(r)));
     if (of.k != 1) continue;
     const auto momentum = [&](const Vector& x) {
-      return n * (along(of, x.tail(r)) + Complexes(0.0, spin) * along(of, x.head(r)));
+      return n * (along_rim(of, x.tail(r)) + Complexes(0.0, spin) * along_rim(of, x.head(r)));
     };
     const Complexes ahead = momentum(s.shift), turned = momentum(s.twist);
     by.topRows<2>() << ahead.real(), -ahead.imag(), turned.real(), ahead.imag(), ahead.real(),
@@ -195,9 +178,9 @@ WheelRim::End RingWheel::end_of(const WheelReport& report, double ahead) const {
     const Index r = of.squares.size();
     const double n = of.weight() * ring_.n_sectors();
     const auto rate = 0.5 * (s.before.tail(r) + s.state.tail(r));
-    end.swirl += n * twisted(of.coriolis, s.before.head(r), rate);
-    if (of.k == 0) end.swirl += n * product(of.turned, rate);
-    if (of.k == 1) end.middle += static_cast<double>(ring_.n_sectors()) * vec(along(of, rate));
+    end.swirl += n * twisted_by(of.coriolis, s.before.head(r), rate);
+    if (of.k == 0) end.swirl += n * product_of(of.turned, rate);
+    if (of.k == 1) end.middle += static_cast<double>(ring_.n_sectors()) * vec(along_rim(of, rate));
   }
   return end;
 }
