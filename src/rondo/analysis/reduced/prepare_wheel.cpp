@@ -270,8 +270,7 @@ void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
   if (w.solid && contact::falls_with_slip(c.ground->friction))
     warn(
         "ground.friction.slip_speed falls with the slip: contact nodes stick and slide in turn, "
-        "the "
-        "more the smaller the step, and friction may be off by several per cent: compare with "
+        "the more the smaller the step, and friction may be off by several per cent: compare with "
         "another --reduced-step (--estimate), or with the full run, without --reduced");
   if (const double lowest = w.lowest(); w.solid && setup.model.mass_damping > lowest)
     warn(
