@@ -267,8 +267,8 @@ long long count_steps(const Case& c, double dt) {
                      "at most 1e+12 steps");
   RONDO_DEMAND(dt > 0.0 && std::isfinite(dt), dt);
   const double nearest = std::round(steps);  // 0.1 / 1e-5 is 10000, whatever its last bit says
-  return static_cast<long long>(std::abs(steps - nearest) < 1e-9 * nearest ? nearest
-                                                                           : std::ceil(steps));
+  const double whole = std::abs(steps - nearest) < 1e-9 * nearest ? nearest : std::ceil(steps);
+  return std::max(1LL, static_cast<long long>(whole));  // the quotient of a tiny end may be 0
 }
 
 std::size_t count_dofs(const dynamics::Model& model) {
