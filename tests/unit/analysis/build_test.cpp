@@ -178,6 +178,15 @@ TEST(Build, MassDampingShortensTheStepOfTheSchemeAsPrinted) {
   }
 }
 
+/// Found by fuzzing: the quotient of the smallest end and a step of seconds is 0.
+TEST(Build, AnEndThatUnderflowsHasOneStep) {
+  Case c = spinning(2, 6, 60.0);
+  c.time.end = 5e-324;
+  EXPECT_EQ(count_steps(c, 4.0), 1);
+  c.time.end = 0.1;
+  EXPECT_EQ(count_steps(c, 1e-5), 10000);
+}
+
 /// Found by fuzzing: on a very soft body the rim turned several times in a step, and the contact
 /// law had no solution. At a step of φ = 2 atan(1/μ) its normal and tangential terms balance.
 TEST(Build, ATurnTooWideForTheContactLawIsRefused) {

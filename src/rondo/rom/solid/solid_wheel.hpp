@@ -67,8 +67,7 @@ struct SolidWheelReport {
   GroundForces end;   ///< at the end of the step
   GroundForces mean;  ///< θ of it and 1 - θ of that at its start: what moves modes and rim
   double torque = 0.0, mean_torque = 0.0;  ///< of these about the axle               [N m]
-  /// A rim that moves needs SolidWheel::lateral_momentum at the end, and its mean in the step [N
-  /// s].
+  /// SolidWheel::lateral_momentum at the end and its mean in the step, for a rim that moves [N s].
   double lateral_momentum = 0.0, lateral_middle = 0.0;
   double lateral_work = 0.0;  ///< of the force at the end along t2, part of WheelEnergy::rim [J]
   /// The work that the moment at the end does on a hub that turns about the axes of the ground,
