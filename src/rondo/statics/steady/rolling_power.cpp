@@ -59,7 +59,6 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
   power.drive = ahead * s.forces.heading + aside * s.forces.lateral + spin * torque;
   if (yaw != 0.0) power.drive += yaw * s.forces.aligning;
   double of_field = 0.0;  // Σ r·w by the field's own velocity
-  double turned = 0.0;    // Σ |s x r_n|, of which the torque is what does not cancel
   for (std::size_t j = 0; j < w.pairs().size(); ++j) {
     const RollingPair& p = w.pairs()[j];
     const auto row = static_cast<Index>(D * j), at = static_cast<Index>(D * p.candidate);
@@ -74,7 +73,6 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
       const NodeVector<D - 1> place = (to_ground * arm).template tail<D - 1>();
       of_field += yaw * force.dot(yawed<D>(place).reshaped()) / pass;
     }
-    turned += std::abs(spin * (to_ground * arm)[1] * force[0]) / pass;
     power.friction -=
         force.template tail<D - 1>().dot(s.gap_and_slip.segment<D - 1>(row + 1)) / pass;
   }
@@ -83,13 +81,13 @@ RollingPower rolling_power(const RollingWindow<D>& w, const RollingSolution& s,
     inner = spin / pass * h.fields(spectrum, 0.0, true).cwiseProduct(remainder).sum();
   power.scheme = of_field + power.friction - inner;
   const double left = power.drive + power.damping() - power.weight - of_field + inner;
+  const double carried = s.forces.normal * std::max(std::abs(s.speed), std::abs(spin) * s.height);
   const double largest = std::max(
       {std::abs(ahead * s.forces.heading) + std::abs(aside * s.forces.lateral),
        std::abs(spin * torque), std::abs(yaw * s.forces.aligning), power.mass, power.stiffness,
-       power.viscosity, std::abs(power.friction), least_power_share * turned});
+       power.viscosity, std::abs(power.friction), least_power_share * carried});
   power.residual = largest > 0.0 ? std::abs(left) / largest : 0.0;
-  find_scheme_shares(s.forces.normal * std::max(std::abs(s.speed), std::abs(spin) * s.height),
-                     power);
+  find_scheme_shares(carried, power);
   return power;
 }
 

@@ -32,8 +32,8 @@ struct RollingPower {
   [[nodiscard]] double damping() const noexcept { return mass + stiffness + viscosity; }
 };
 
-/// Without friction and damping there is no power but round-off, which is not judged by itself: at
-/// least this share of the power by which normal forces would turn the body if they did not cancel.
+/// Without friction and damping there is no power but round-off, which is not judged by itself: the
+/// residual is over at least this share of load times speed.
 inline constexpr double least_power_share = 1e-3;
 
 /// Fills both shares of the scheme from the powers.
