@@ -38,10 +38,13 @@ SCRIPTS = {"cli": "test_run.py", "lengths": "test_contact_lengths.py", "disk": "
            "fmu": "test_fmu.py", "fmuspace": "test_fmu_space.py", "fmufiles": "test_fmu_files.py", "rim": "test_wheel_rim.py", "schema": "test_schema.py", "small": "test_small_obstacles.py", "roads": "test_road.py",
            "obstacles": "test_obstacles.py", "angles": "test_obstacle_angles.py", "frictionwork": "test_friction_work.py", "frictiontables": "test_friction_tables.py"}
 
-# @file in src/rondo, then of each mutation in it: name | old text => new text | tests.
+PACKAGE = {"rigfit": "test_rig_fit.py", "rigreport": "test_rig_report.py", "rigagainst": "test_rig_against.py",
+           "rigfigures": "test_rig_figures.py"}  # in tests/python
+
+# @file in src/rondo, or from the root where it begins with python/, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are
 # program:filter, with the names in PROGRAMS and gtest's filters, or name:pattern with those in
-# SCRIPTS (unittest's -k).
+# SCRIPTS (unittest's -k) and in PACKAGE (pytest's -k).
 TABLE = (ROOT / "tests" / "mutations.txt").read_text()
 
 
@@ -50,7 +53,7 @@ def table(tree, only):
     rows, faults, path = [], [], None
     for line in TABLE.strip().replace("\n  ", " ").splitlines():
         if line.startswith("@"):
-            path = tree / "src/rondo" / line[1:]
+            path = tree / ("" if line.startswith("@python/") else "src/rondo") / line[1:]
             continue
         name, change, tests = line.split(" | ")
         old, new = (part.strip().replace("\\n", "\n") for part in change.split("=>"))
@@ -81,15 +84,19 @@ def failures(tree, build, program, pattern):
     command = [build / "tests" / PROGRAMS.get(program, ""), f"--gtest_filter={pattern}"]
     if program in SCRIPTS:
         command = ["/usr/bin/python3", tree / "tests/cli" / SCRIPTS[program], "-k", pattern]
+    if program in PACKAGE:
+        command = ["/usr/bin/python3", "-m", "pytest", "-q", "-p", "no:cacheprovider", tree / "tests/python" / PACKAGE[program],
+                   "-k", pattern]
     try:
         code, said = run(command, timeout=TIMEOUT,
-                         env={**os.environ, "RONDO": str(build / "rondo"),
-                              "RONDO_MESH_READER": str(build / "rondo-mesh-reader")})
+                         env={**os.environ, "RONDO": str(build / "rondo"), "PYTHONPATH": str(tree / "python"),
+                              "MPLBACKEND": "Agg", "RONDO_MESH_READER": str(build / "rondo-mesh-reader")})
     except subprocess.TimeoutExpired:
         return [f"{program}:{pattern} (out of time)"]
-    if re.search(r"Ran 0 tests|Running 0 tests", said):
+    if re.search(r"Ran 0 tests|Running 0 tests|^\d+ deselected", said, re.M):
         sys.exit(f"no test is called {program}:{pattern}")
-    names = set(re.findall(r"^\[  FAILED  \] (\w\S*\.[^\s,]+)|^(?:FAIL|ERROR): (\w+)", said, re.M))
+    names = set(re.findall(r"^\[  FAILED  \] (\w\S*\.[^\s,]+)|^(?:FAIL|ERROR): (\w+)|"
+                           r"^(?:FAILED|ERROR) \S+::(\w+)", said, re.M))
     names = sorted("".join(name) for name in names)
     return names or ([f"{program}:{pattern} (crash)"] if code else [])
 

@@ -27,6 +27,7 @@ from .data.mesh import Mesh
 from .data.modes import Modes, open_modes
 from .data.paper import Paper, open_paper
 from .data.pod import Pod, open_pod
+from .data.rig import Rig, open_rig
 from .data.run import Run
 from .data.run import open_run as open
 from .data.sweep import Sweep, open_sweep
@@ -42,7 +43,7 @@ attach()
 del attach, demand, while_loading
 
 __all__ = ["Error", "FileError", "Heat", "History", "InputError", "Mesh", "Modes", "NewerSchemaError", "NotARunError",
-           "NumericalError", "Paper", "Pod", "ReducedWheel", "Run", "Simulation", "Solution", "Sweep",
+           "NumericalError", "Paper", "Pod", "ReducedWheel", "Rig", "Run", "Simulation", "Solution", "Sweep",
            "UnfinishedRunError", "UnknownNameError", "Validation", "about", "axes", "crush", "files", "fmu",
-           "magic_formula", "modes", "open", "open_modes", "open_paper", "open_pod", "open_sweep", "open_validation",
+           "magic_formula", "modes", "open", "open_modes", "open_paper", "open_pod", "open_rig", "open_sweep", "open_validation",
            "pod", "reduce", "report", "run", "solve", "steady_rolling", "sweep"]

@@ -54,6 +54,29 @@ def _parser() -> argparse.ArgumentParser:
     paper.add_argument("--study", type=pathlib.Path, metavar="FOLDER",
                        help="Directory of another study.toml; default studies/paper")
 
+    rig = add(
+        "rig", "Tests a wheel in three dimensions on a tyre test rig: tables, tyre.tir, a report",
+        epilog="The same command goes on with a rig that was interrupted. Exit code 3: some points failed, each a row "
+               "with its reason. docs/rig.md.")
+    rig.add_argument("case", type=pathlib.Path, metavar="TYRE.toml", help="Case file of the wheel")
+    rig.add_argument("-o", "--output", type=output_path, metavar="DIRECTORY",
+                     help='Directory of the results; default the case\'s name and "-rig" in the working folder')
+    rig.add_argument("--rig", type=pathlib.Path, metavar="RIG.toml",
+                     help="Loads, pressures, slips, speeds of the tests; default: those that fit the case")
+    rig.add_argument("--write-defaults", action="store_true",
+                     help="Prints a RIG.toml with all values, those of --rig and the defaults, and runs no test")
+    rig.add_argument("--tests", metavar="NAME,NAME", help="Tests that are done; default all: vertical, footprint, "
+                     "longitudinal, lateral, combined, rolling-resistance, relaxation, cleat, modes, road")
+    rig.add_argument("--quick", action="store_true", help="Half the sectors, a quarter of the points")
+    rig.add_argument("--dry-run", action="store_true", help="Prints tests, points, time and disk, from one state")
+    rig.add_argument("--against", type=pathlib.Path, metavar="FILE",
+                     help="Measurements, .tdx or .csv with channels of TYDEX, in figures and report")
+    rig.add_argument("--fmu", action="store_true", help="Adds the reduced wheel as tyre.fmu")
+    rig.add_argument("--jobs", "--threads", type=_count, metavar="N",
+                     help="Number of runs at once, each on one core; default all cores")
+    rig.add_argument("--overwrite", action="store_true", help="Goes on in a directory of another tyre or other settings")
+    rig.add_argument("--quiet", action="store_true", help="Prints warnings and errors only")
+
     figures = add("figures", "Draws the figures of a run, a sweep, modes or a study of the paper")
     figures.add_argument("directory", type=pathlib.Path,
                          help="Directory of `rondo run`, `rondo sweep`, `rondo modes` or `rondo paper`")
@@ -214,6 +237,19 @@ def _paper(options: argparse.Namespace) -> int:
     from rondo.studies.paper import command
     return command(options.output, options.quick, options.jobs, options.overwrite, options.quiet,
                    options.study)
+
+
+def _rig(options: argparse.Namespace) -> int:
+    from rondo.rig.command import Request, defaults_text, plan, run_rig
+    from rondo.rig.tests_table import TESTS
+
+    tests = tuple(options.tests.split(",")) if options.tests else tuple(TESTS)
+    request = Request(options.case, options.output or pathlib.Path(f"{options.case.stem}-rig"), options.rig, tests,
+                      options.quick, options.jobs or 0, options.overwrite, options.quiet, options.against, options.fmu)
+    if options.write_defaults or options.dry_run:
+        print(defaults_text(request) if options.write_defaults else plan(request), end="")
+        return 0
+    return run_rig(request)
 
 
 def _validate(options: argparse.Namespace) -> None:
@@ -402,7 +438,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         matplotlib.use("Agg")
     code: int | None = 0
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
-        "paper": _paper, "figures": _figures, "animate": _animate, "report": _report, "means": _means,
+        "paper": _paper, "rig": _rig, "figures": _figures, "animate": _animate, "report": _report, "means": _means,
         "psd": _psd,
         "wheel": _wheel, "footprint": _footprint, "traction": _traction, "tyre": _tyre,
         "campbell": _campbell, "sweep": _sweep, "converge": _converge, "validate": _validate,

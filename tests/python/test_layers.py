@@ -11,7 +11,7 @@ DRAWS = ("plots", "figures", "pictures", "style")
 ALLOWED = {  # by the first folder, or the module itself: what it may import besides its own
     "data": set(), "style": set(), "plots": {"data", "files", "style"}, "studies": {"data", "native"},
     "figures": {"data", "plots", "style"}, "pictures": {"data", "files", "plots", "reports"},
-    "reports": {"data", "figures", "plots", "style"},
+    "reports": {"data", "figures", "plots", "rig", "style"}, "rig": {"data", "magic_formula", "plots", "reports", "style"},
     "native": {"data", "options", "studies"}, "options": set(), "about": {"data", "native", "studies"},
     "_core": set(), "matrices": {"_core", "data"},
     "simulation": {"_core", "data", "matrices", "native"}, "solution": {"data", "native", "simulation"},

@@ -27,6 +27,7 @@ KINDS = {  # what is in a directory with this file, and who opens it
     "run.json": ("a run", "rondo.open"),
     "modes.json": ("modes of a body", "rondo.open_modes"),
     "sweep.json": ("a sweep", "rondo.open_sweep"),
+    "rig.json": ("a tyre test rig", "rondo.open_rig"),
     "validation.json": ("a validation of reduced runs", "rondo.open_validation"),
 }
 

@@ -28,6 +28,14 @@ _SMALLEST = 1e-12   # of a residual's scale
 LAST = {stage.channel: stage for stage in STAGES}  # after which all coefficients of a channel are refined together
 
 
+class TooFewRows(InputError):
+    """A channel has fewer rows than coefficients."""
+
+    def __init__(self, channel: str, text: str) -> None:
+        super().__init__(text)
+        self.channel = channel
+
+
 @dataclass(frozen=True)
 class Residual:
     """How far the fit is from the data of a channel, in its unit."""
@@ -139,9 +147,9 @@ class _Data:
         if not held:
             return
         if int(rows.sum()) < len(held):
-            raise InputError(f"{stage.channel}: {int(rows.sum())} rows of {stage.name} for {len(held)} coefficients "
-                             f"(allowed: as many rows or more, {_asked(stage)}): measure more of them, or leave "
-                             f"{stage.channel} out")
+            raise TooFewRows(stage.channel, f"{stage.channel}: {int(rows.sum())} rows of {stage.name} for {len(held)} "
+                             f"coefficients (allowed: as many rows or more, {_asked(stage)}): measure more of them, or "
+                             f"leave {stage.channel} out")
         self._best(stage, held, rows)
 
     def together(self, channel: str) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""One HTML file for a run, a sweep, a POD or the paper's study, which needs no network (docs/report.md)."""
+"""One HTML file for a run, a sweep, a rig, a POD or the paper's study, which needs no network (docs/report.md)."""
 from __future__ import annotations
 
 import os
@@ -30,16 +30,7 @@ def report(results: str | os.PathLike[str], file: str | os.PathLike[str] | None 
         raise FileError(f"{target}: is a folder: give the name of a file that ends in .html")
     if file is not None and not target.parent.is_dir():
         raise FileError(f"{target}: cannot be written: there is no folder {target.parent}; choose another -o")
-    text = page(directory).text().encode("utf-8", "replace")
-    fresh = target.with_name(f".{target.name}.{os.getpid()}.tmp")  # the file is whole or is not there
-    try:
-        fresh.write_bytes(text)
-        fresh.replace(target)
-    except OSError as reason:
-        raise FileError(f"{target}: cannot be written: {reason.strerror or reason}; choose another -o") from None
-    finally:  # also at Ctrl-C
-        fresh.unlink(missing_ok=True)
-    return target
+    return page(directory).write(target)
 
 
 def page(directory: pathlib.Path) -> Document:
@@ -50,6 +41,10 @@ def page(directory: pathlib.Path) -> Document:
     from ..data.sweep import open_sweep
     from .plotly import plotly
 
+    if (directory / "rig.json").is_file():
+        from ..data.rig import open_rig
+        from ..rig.report import page as rig_page
+        return rig_page(open_rig(directory))
     plotly()  # without it nothing of the work below would be of use
     if (directory / "paper.json").is_file():
         from .paper_page import paper_page

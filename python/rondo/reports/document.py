@@ -2,11 +2,13 @@
 """One page of HTML that needs nothing besides itself: sections, data, style, scripts."""
 from __future__ import annotations
 
+import os
 import pathlib
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 from .. import style
+from ..data.errors import FileError
 from .encoding import escaped, json_text
 from .plotly import plotly
 
@@ -73,6 +75,19 @@ class Document:
                 f"<h1>{escaped(self.title)}</h1>"
                 f'<nav aria-label="Sections">{inside}</nav></header>\n<main>\n{sections}</main>\n'
                 f"<footer>{_footer()}</footer>\n{data}{self._scripts()}</body>\n</html>\n")
+
+    def write(self, target: pathlib.Path) -> pathlib.Path:
+        """Into a file, which is whole or is not there.
+        @raise FileError: it cannot be written."""
+        fresh = target.with_name(f".{target.name}.{os.getpid()}.tmp")
+        try:
+            fresh.write_bytes(self.text().encode("utf-8", "replace"))
+            fresh.replace(target)
+        except OSError as reason:
+            raise FileError(f"{target}: cannot be written: {reason.strerror or reason}; choose another -o") from None
+        finally:  # also at Ctrl-C
+            fresh.unlink(missing_ok=True)
+        return target
 
     def _scripts(self) -> str:
         colours = {"sequential": _colours(style.SEQUENTIAL), "diverging": _colours(style.DIVERGING)}

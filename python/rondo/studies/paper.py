@@ -3,7 +3,6 @@
 into one directory, and the table of ours against expected (docs/paper.md, docs/results.md)."""
 from __future__ import annotations
 
-import fcntl
 import json
 import math
 import os
@@ -13,11 +12,11 @@ import socket
 import sys
 import time
 from dataclasses import dataclass, field
-from types import TracebackType
 from typing import Any
 
 from ..data.errors import Error
 from ..data.files import read_json
+from .lock import FilesError, Lock
 from .jobs import FILES, INTERRUPTED, NUMERICAL, Job, Stop, processors, run_jobs
 from .paper_kept import has_ended, identity, pod_is_there, remove_unfinished, run_is_there
 from .paper_plan import Plan, PlannedPod, PlannedRun, read_plan, study_folder
@@ -26,10 +25,6 @@ from .program import Program, find_program
 from .progress import Progress
 
 FORMAT = "rondo paper 1"
-
-
-class FilesError(Error):
-    """Of files of the study: exit code 4."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +43,7 @@ def run_paper(request: Request) -> int:
     plan = read_plan(request.study, request.quick)
     program = find_program()
     known = _prepare(request, plan)
-    with _Lock(request.directory):
+    with Lock(request.directory):
         study = _Study(request, plan, program, known)
         study.write("running")
         try:
@@ -107,29 +102,6 @@ def _known(request: Request) -> dict[str, Any]:
     runs = info.get("runs")
     return {run["name"]: run.get("identity") for run in (runs if isinstance(runs, list) else [])
             if isinstance(run, dict) and "name" in run}
-
-
-class _Lock:
-    """Two studies cannot be at work in one directory; the lock ends with the process."""
-
-    def __init__(self, directory: pathlib.Path) -> None:
-        self._directory = directory
-
-    def __enter__(self) -> None:
-        self._descriptor = os.open(self._directory, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
-        for wait in [0.05] * 20 + [0.0]:  # a second: one that was killed may be ending
-            try:
-                return fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                time.sleep(wait)
-            except OSError:  # a file system without locks
-                return None
-        os.close(self._descriptor)
-        raise FilesError(f"{self._directory}: another rondo is at work here; wait until it ends")
-
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None,
-                 trace: TracebackType | None) -> None:
-        os.close(self._descriptor)
 
 
 class _Study:

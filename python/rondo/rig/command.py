@@ -1,0 +1,331 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo rig: a tyre through all tests, several runs at once, into one directory (docs/rig.md)."""
+from __future__ import annotations
+
+import pathlib
+import shutil
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..data.errors import Error, InputError
+from ..data.files import read_json
+from ..studies.jobs import INTERRUPTED, NUMERICAL, Job, Stop, processors, run_jobs
+from ..studies.lock import Lock
+from ..studies.program import Program, find_program
+from ..studies.progress import Progress, readable_time
+from .blocks import RESULTS, Bench, Block
+from .defaults import nominal, with_defaults
+from .findings import find
+from .keys import TOP
+from .record import FORMAT, write_channels, write_json, write_table
+from .rows import DONE, FAILED, free_radius, rows_of_block
+from .settings import Settings, read_settings, settings_text
+from .states import Row, States, states_of
+from .steady_tests import reference
+from .tests_table import TESTS
+from .time_tests import fmu
+from .tyre import Tyre, read_tyre
+
+GUESS = 0.3      # m: the radius by which a speed of a rig file is a spin, until the reference tells the radius
+FIRST = "vertical"  # the test that others begin with
+# Seconds of a block beside its points, and of a point, in those of a point of the reference.
+SETUP, STEADY, STEP, IN_TIME, MODES = 4.0, 1.0, 8.0, 20.0, 25.0
+
+
+@dataclass(frozen=True)
+class Request:
+    case: pathlib.Path
+    directory: pathlib.Path
+    rig: pathlib.Path | None = None
+    tests: tuple[str, ...] = tuple(TESTS)
+    quick: bool = False
+    jobs: int = 0            # at once; 0: as many as there are cores
+    overwrite: bool = False  # do again what is there
+    quiet: bool = False
+    against: pathlib.Path | None = None  # a file of measurements
+    fmu: bool = False
+
+
+def plan(request: Request) -> str:
+    """Tests, points, time and disk of a rig, of a state of the reference in a folder that is removed."""
+    with tempfile.TemporaryDirectory() as folder:
+        rig = Rig(replace(request, directory=pathlib.Path(folder)))
+        rig.begin(Stop())
+        return rig.plan_text()
+
+
+def defaults_text(request: Request) -> str:
+    """A rig file with all values of the tyre."""
+    with tempfile.TemporaryDirectory() as folder:
+        rig = Rig(replace(request, directory=pathlib.Path(folder)))
+        rig.begin(Stop())
+        return settings_text(rig.bench.settings, rig.bench.tyre.title)
+
+
+def run_rig(request: Request) -> int:
+    """What is complete in the directory, of the same program and the same files, is kept: a rig that was killed goes on
+    where it was. Returns the exit code."""
+    try:
+        request.directory.mkdir(parents=True, exist_ok=True)
+    except OSError as reason:
+        raise InputError(f"{request.directory}: cannot create directory: {reason.strerror}; choose another -o") from None
+    with Lock(request.directory), Stop() as stop:
+        rig = Rig(request)
+        rig.demand_same()
+        rig.begin(stop)
+        if not stop.asked:
+            rig.do_tests(stop)
+        return rig.end(stop)
+
+
+class Rig:
+    """The rig as it goes on, and what is written of it."""
+
+    def __init__(self, request: Request) -> None:
+        if unknown := [name for name in request.tests if name not in TESTS]:
+            raise InputError(f"--tests: {', '.join(unknown)}: no such test (allowed: {', '.join(TESTS)})")
+        self.request, self.program = request, find_program()
+        self.tyre: Tyre = read_tyre(request.case)
+        self.given: Settings = read_settings(request.rig)
+        self.info: dict[str, Any] = {}
+        self.blocks: dict[str, list[Block]] = {}
+        self.rows: dict[str, list[Row]] = {}
+        self.tests: dict[str, dict[str, Any]] = {}
+        self.failures: dict[str, str] = {}  # of commands, by block
+        self.states: States | None = None
+        self.point_s = 0.0
+        self._mesh, mesh_name = self._read_mesh()
+        top = nominal(self.tyre, self.given, request.quick)
+        self.bench = Bench(self.tyre, {TOP: top}, mesh_name)
+
+    @property
+    def runs(self) -> pathlib.Path:
+        return self.request.directory / "runs"
+
+    def _read_mesh(self) -> tuple[bytes, str]:
+        name = self.tyre.case.get("section", {}).get("file")
+        if name is None:
+            return b"", ""
+        path = self.tyre.path.parent / name
+        try:
+            return path.read_bytes(), path.name
+        except OSError as reason:
+            raise InputError(f"{self.tyre.path}: section.file: {path}: cannot be read: {reason.strerror}") from None
+
+    # What is there already
+
+    def demand_same(self) -> None:
+        """Of what rig.json says: the same tyre and settings, unless --overwrite."""
+        path = self.request.directory / "rig.json"
+        foreign = [name for name in ("run.json", "sweep.json", "paper.json") if (self.request.directory / name).exists()]
+        if foreign:
+            raise InputError(f"{self.request.directory}: holds {foreign[0]}, and is no directory of a rig; choose another -o")
+        if not path.exists() or self.request.overwrite:
+            return
+        known = read_json(path)
+        if known.get("format") != FORMAT:
+            raise InputError(f'{path}: format "{known.get("format")}" is not "{FORMAT}"; choose another -o, or give --overwrite')
+        now = self._sources()
+        changed = [name for name, value in now.items() if known.get("sources", {}).get(name) != value]
+        if changed:
+            raise InputError(f"{self.request.directory}: holds a rig of another {' and another '.join(changed)}; choose "
+                             "another -o, or give --overwrite, which runs what has changed")
+        self.info = {"blocks": known.get("blocks", {})}
+
+    def _sources(self) -> dict[str, Any]:
+        rig = self.request.rig
+        return {"case": self.tyre.text, "rig file": rig.read_text() if rig else "", "--quick": self.request.quick}
+
+    def _is_there(self, block: Block) -> bool:
+        known = self.info.get("blocks", {}).get(block.name)
+        return bool(self.program.build_id) and known == block.identity(self.program.build_id, self._mesh)
+
+    # As it goes on
+
+    def begin(self, stop: Stop) -> None:
+        """The reference: radius, cost of a point; then all settings are known."""
+        try:
+            self.runs.mkdir(parents=True, exist_ok=True)
+            if self._mesh:
+                (self.runs / self.bench.mesh).write_bytes(self._mesh)
+        except OSError as reason:
+            raise InputError(f"{self.runs}: cannot be written: {reason.strerror}; choose another -o") from None
+        spin = self.tyre.spin if "speed" not in self.bench.top else self.bench.top["speed"] / GUESS
+        block = reference(self.bench, spin or 0.0)
+        self._run([block], stop, quiet=True)
+        if stop.asked:
+            return
+        if block.name in self.failures:
+            raise Error(f"the tyre does not roll under its nominal load: {self.failures[block.name]}")
+        info = read_json(self.runs / block.name / RESULTS / "run.json")
+        radius = free_radius(info["steady"], spin or 0.0)
+        self.point_s = float(info["solve_wall_s"])
+        self.disk = int(sum(path.stat().st_size for path in (self.runs / block.name / RESULTS).iterdir()))
+        settings = with_defaults(self.tyre, self.given, self.request.quick, radius)
+        self.bench = Bench(self.tyre, settings, self.bench.mesh, radius)
+
+    def do_tests(self, stop: Stop) -> None:
+        wanted = [name for name in TESTS if name in self.request.tests]
+        first = [FIRST] if self.request.fmu or FIRST in wanted or any(map(self._begins_with_states, wanted)) else []
+        for tests in (first, [name for name in wanted if name != FIRST]):
+            blocks = []
+            for name in tests:
+                self.blocks[name], why = self._build(name)
+                self.tests[name] = {"status": "left out", "reason": why} if why else {"status": "running"}
+                blocks += self.blocks[name]
+            if blocks and not stop.asked:
+                self._run(blocks, stop, self.request.quiet)
+            for name in tests:
+                self._settle(name)
+            if FIRST in tests:
+                self.states = states_of(self.rows[FIRST])
+
+    @staticmethod
+    def _begins_with_states(name: str) -> bool:
+        return name not in (FIRST, "footprint", "modes")
+
+    def _build(self, name: str) -> tuple[list[Block], str]:
+        """Its blocks, or why there are none."""
+        try:
+            return TESTS[name].blocks(self.bench, self.states or States({})), ""
+        except Error as reason:
+            return [], str(reason)
+
+    def _run(self, blocks: Sequence[Block], stop: Stop, quiet: bool) -> None:
+        jobs, of = [], {}
+        for block in blocks:
+            job = self._job(block)
+            of[job.name] = block
+            jobs.append(job)
+        waiting = [job for job in jobs if job.status == "waiting"]
+        if kept := len(jobs) - len(waiting):
+            _say(quiet, f"info: {kept} of {len(jobs)} parts are there already and kept")
+        weights = {job.name: self._cost(of[job.name]) for job in waiting}
+        progress = Progress(len(waiting), quiet, weights)
+
+        def ended(job: Job) -> None:
+            progress.ended(job)
+            block = of[job.name]
+            if job.status == "done":
+                self.info.setdefault("blocks", {})[block.name] = block.identity(self.program.build_id, self._mesh)
+            else:
+                self.failures[block.name] = job.message
+            self._settle(block.test)
+
+        waiting.sort(key=lambda job: -weights[job.name])
+        try:
+            run_jobs(self.program, waiting, self.request.jobs or processors(), stop, ended, progress.watch)
+        finally:
+            progress.close()
+
+    def _job(self, block: Block) -> Job:
+        folder = self.runs / block.name
+
+        def accepts(code: int) -> str | None:
+            if code != NUMERICAL or block.kind != "sweep" or not (folder / RESULTS / "sweep.json").exists():
+                return None
+            return "some points failed"
+
+        job = Job(block.name, block.arguments(folder), before=lambda: block.write(folder), accepts=accepts)
+        if self._is_there(block):
+            job.kept, job.status = True, "done"
+        return job
+
+    def _cost(self, block: Block) -> float:
+        """s, about; without the reference 1."""
+        each = {"cleat": IN_TIME, "road": IN_TIME, "relaxation": STEP, "modes": MODES}.get(block.test, STEADY)
+        return (SETUP + each * len(block.points)) * (self.point_s or 1.0)
+
+    def _make_fmu(self, stop: Stop) -> None:
+        """DIR/tyre.fmu."""
+        block = fmu(self.bench, self.states or States({}))
+        self._run([block], stop, self.request.quiet)
+        made = self.runs / block.name / f"{RESULTS}.fmu"
+        if block.name in self.failures:
+            raise Error(f"tyre.fmu was not made: {self.failures[block.name]}")
+        shutil.copyfile(made, self.request.directory / "tyre.fmu")
+
+    # What is written
+
+    def _settle(self, name: str) -> None:
+        """The table of a test, and rig.json."""
+        if name not in self.blocks:
+            return
+        begun = [block for block in self.blocks[name] if self._has_ended(block)]
+        rows = [row for block in begun
+                for row in rows_of_block(self.bench, self.states, block, self.runs, self.failures.get(block.name, ""))]
+        self.rows[name] = rows
+        told = self.tests[name]
+        if self.blocks[name]:
+            failed = sum(row["status"] == FAILED for row in rows)
+            told |= {"status": "finished" if len(begun) == len(self.blocks[name]) else "unfinished",
+                     "points": sum(len(block.points) for block in self.blocks[name]), "failed": failed}
+            if rows and failed == len(rows):
+                told["status"] = "failed"
+            told["csv"] = write_table(self.request.directory, name, rows)
+            told["tdx"] = write_channels(self.request.directory, name, self.tyre.title, rows)
+            told["figures"] = find(self.bench, name, rows)
+        self.write()
+
+    def _has_ended(self, block: Block) -> bool:
+        return self._is_there(block) or block.name in self.failures
+
+    def write(self) -> None:
+        settings = self.bench.settings
+        write_json(self.request.directory / "rig.json", {
+            "format": FORMAT, "schema": 1, "title": self.tyre.title, "case": self.tyre.path.name,
+            "version": self.program.version, "build_id": self.program.build_id, "quick": self.request.quick,
+            "radius": self.bench.radius, "settings": {**settings[TOP], **{k: v for k, v in settings.items() if k != TOP}},
+            "tests": {name: self.tests[name] for name in TESTS if name in self.tests},
+            "blocks": self.info.get("blocks", {}), "sources": self._sources()})
+
+    def plan_text(self) -> str:
+        """Tests, points, time and disk."""
+        states = States({})
+        lines, total, points, parts = [], 0.0, 0, 0
+        for name in TESTS:
+            if name not in self.request.tests:
+                continue
+            blocks = TESTS[name].blocks(self.bench, _Flat(states.curves, self.bench.radius))
+            cost, count = sum(map(self._cost, blocks)), sum(len(block.points) for block in blocks)
+            lines.append(f"{name:20}{count:5} points  about {readable_time(cost)} of one core")
+            total, points, parts = total + cost, points + count, parts + sum(block.kind != "sweep" for block in blocks)
+        at_once = self.request.jobs or processors()
+        lines.append(f"{'all':20}{points:5} points  about {readable_time(total / at_once)} on {at_once} cores, "
+                     f"{1e-6 * parts * self.disk:.0f} MB")
+        return "\n".join(lines) + "\n"
+
+    def end(self, stop: Stop) -> int:
+        if stop.asked:
+            _say(False, "warning: interrupted; the same command goes on")
+            return INTERRUPTED
+        if self.request.fmu:
+            self._make_fmu(stop)
+        from .pages import write_pages
+        for path in write_pages(self.request.directory, self.request.against):
+            _say(self.request.quiet, f"info: {path}")
+        failed = [f"{name}: {told.get('failed', 0)} of {told['points']} points failed" for name, told in self.tests.items()
+                  if told.get("failed")]
+        failed += [f"{name}: left out: {told['reason']}" for name, told in self.tests.items() if told["status"] == "left out"]
+        for line in failed:
+            _say(False, f"warning: {line}")
+        return NUMERICAL if failed else 0
+
+
+class _Flat(States):
+    """Before the wheel was pressed: the height and the effective radius are about the radius."""
+
+    def __init__(self, curves: Any, radius: float) -> None:
+        super().__init__(curves)
+        object.__setattr__(self, "radius", radius)
+
+    def _at(self, pressure: float | None, load: float, column: int) -> float:
+        return float(self.radius)  # type: ignore[attr-defined]
+
+
+def _say(quiet: bool, text: str) -> None:
+    if not quiet:
+        print(f"rondo: {text}", file=sys.stderr, flush=True)

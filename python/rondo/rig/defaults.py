@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a rig file leaves out: loads and pressures as multiples of those of the case, slips, speeds."""
+from __future__ import annotations
+
+from ..data.errors import InputError
+from .keys import TABLES, TOP
+from .settings import Settings, Values
+from .tyre import Tyre
+
+FEWEST = 60  # sectors that a footprint needs
+
+
+def nominal(tyre: Tyre, given: Settings, quick: bool) -> Values:
+    """The values at the top that need no run: load, pressure, friction, sectors, samples.
+    @raise InputError: neither the case nor the rig file says a load or a speed."""
+    top = given[TOP]
+    values: Values = {"schema": 1, "load": tyre.load, "pressure": tyre.pressure, "friction": tyre.friction,
+                      "sectors": _coarser(tyre.sectors) if quick else tyre.sectors,
+                      "samples_per_sector": min(2, tyre.samples), **top}
+    for key, unit, there in (("load", "4000.0", "no analysis.load and no rim.force_y"),
+                             ("speed", "13.7", "no motion.angular_velocity")):
+        if key not in values or values[key] is None:
+            if key == "speed" and tyre.spin is not None:
+                continue
+            raise InputError(f"{tyre.path}: has {there}, and the rig needs it: give {key} = {unit} in a rig file (--rig)")
+    if tyre.pressure is None and ("pressure" in top or any("pressures" in one for one in given.values())):
+        raise InputError(f"{tyre.path}: has no [inflation], and the rig file varies its pressure: leave pressures out")
+    return values
+
+
+def with_defaults(tyre: Tyre, given: Settings, quick: bool, radius: float) -> Settings:
+    """All values of all tests. `radius`: of the wheel without load [m]."""
+    top = nominal(tyre, given, quick)
+    load, pressure = float(top["load"]), top["pressure"]
+    if "speed" not in top:
+        top["speed"] = _short((tyre.spin or 0.0) * radius)
+    top.setdefault("loads", _times(load, (0.5, 1.0, 1.5) if quick else (0.5, 0.75, 1.0, 1.5)))
+    top.setdefault("pressures", _times(pressure, (0.8, 1.0) if quick else (0.8, 1.0, 1.2)) if pressure else [])
+    top.setdefault("cambers_deg", [0.0, 3.0] if quick else [-3.0, 0.0, 3.0])
+    settings: Settings = {TOP: top}
+    for name, defaults in _of_tests(top, quick, radius).items():
+        settings[name] = defaults | given.get(name, {})
+    for values in settings.values():  # tests compare with these
+        for key, always in (("pressures", pressure), ("cambers_deg", 0.0)):
+            if key in values and always is not None and always not in values[key]:
+                values[key] = sorted([*values[key], always])
+    return {table: {key.name: settings[table][key.name] for key in keys if settings[table].get(key.name) not in (None, [])}
+            for table, keys in TABLES.items()}
+
+
+def _coarser(sectors: int) -> int:
+    """Half as many, as long as a footprint still has some columns."""
+    return max(min(sectors, FEWEST), sectors // 2)
+
+
+def _short(value: float) -> float:
+    """To six digits, so that a file that says it is short."""
+    return float(f"{value:.6g}")
+
+
+def _times(value: float, factors: tuple[float, ...]) -> list[float]:
+    return [_short(value * factor) for factor in factors]
+
+
+def _of_tests(top: Values, quick: bool, radius: float) -> Settings:
+    loads, pressures, load, speed = top["loads"], top["pressures"], top["load"], top["speed"]
+    of_loads = {"loads": loads, "pressures": pressures}
+    vertical = (0.25, 0.5, 1.0, 1.5) if quick else (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)
+    speeds = _times(speed, (1.0, 2.0) if quick else (0.5, 1.0, 1.5, 2.0))
+    return {
+        "vertical": {"loads": _times(load, vertical), "pressures": pressures},
+        "footprint": {"loads": [load] if quick else loads, "cambers_deg": [0.0] if quick else [0.0, 3.0]},
+        "longitudinal": {
+            **of_loads,
+            "slip_ratios": [-0.1, -0.03, -0.01, 0.01, 0.03, 0.1] if quick else
+            [-0.2, -0.14, -0.1, -0.07, -0.045, -0.03, -0.02, -0.01, 0.01, 0.02, 0.03, 0.045, 0.07, 0.1],
+            "few_slip_ratios": [-0.05, -0.01, 0.01] if quick else [-0.1, -0.04, -0.01, 0.01, 0.04]},
+        "lateral": {
+            **of_loads, "cambers_deg": top["cambers_deg"],
+            "slip_angles_deg": [-8.0, -3.0, -1.0, 0.0, 1.0, 3.0, 8.0] if quick else
+            [-12.0, -8.0, -5.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0],
+            "few_slip_angles_deg": [-4.0, 0.0, 4.0] if quick else [-8.0, -4.0, -1.0, 0.0, 1.0, 4.0, 8.0]},
+        "combined": {"loads": [load] if quick else [loads[0], loads[-1]],
+                     "slip_angles_deg": [-4.0, 2.0] if quick else [-5.0, -2.0, 2.0, 5.0],
+                     "slip_ratios": [-0.06, 0.02] if quick else [-0.14, -0.07, -0.03, 0.03, 0.07]},
+        "rolling-resistance": {**of_loads, "speeds": speeds},
+        "relaxation": {"loads": [load] if quick else loads, "slip_angle_step_deg": 0.1, "slip_ratio_step": 0.001,
+                       "distance": _short(6.0 * radius)},
+        "cleat": {"speeds": [speed] if quick else _times(speed, (0.5, 1.0, 2.0)), "height": 0.01, "length": 0.02,
+                  "modes": 60 if quick else 200, "mass_damping": 25.0},
+        "modes": {"count": 6 if quick else 20},
+        "road": {"length": 4.0 if quick else 20.0, "roughness": 1.6e-5, "seed": 1, "speeds": [speed],
+                 "modes": 60 if quick else 200, "mass_damping": 25.0}}

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of merit of the tests, from their rows, in SI and with the signs of ISO 8855."""
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from .blocks import Bench
+from .rows import done
+from .states import Row
+
+Found = dict[str, list[dict[str, Any]]]
+
+
+def find(bench: Bench, test: str, rows: Sequence[Row]) -> Found:
+    """{} of tests without any, or without points."""
+    finder = _FINDERS.get(test)
+    return {name: values for name, values in finder(bench, rows).items() if values} if finder else {}
+
+
+def _vertical(bench: Bench, rows: Sequence[Row]) -> Found:
+    """Slopes of the load over the deflection."""
+    stiffness = []
+    for pressure in sorted({row["pressure"] for row in done(rows)}, key=lambda p: p or 0.0):
+        curve = sorted((row["load"], row["deflection"]) for row in done(rows, pressure=pressure))
+        loads, depths = np.array(curve).T
+        if len(loads) > 1:
+            slopes = np.gradient(loads, depths)
+            stiffness += [{"pressure": pressure, "load": float(load), "value": float(slope)} for load, slope in zip(loads, slopes)]
+    radii = [{"load": row["load"], "pressure": row["pressure"], "value": row["effective_radius"]} for row in done(rows)]
+    return {"radial_stiffness": stiffness, "effective_radius": radii}
+
+
+def _lateral(bench: Bench, rows: Sequence[Row]) -> Found:
+    """Cornering stiffness by the solver's slope; trail from the moment's difference to both sides of straight rolling."""
+    straight = [row for row in done(rows, camber=0.0, slip_angle=0.0) if not row.get("mirrored")]
+    mirrored = {row["load"]: row for row in done(rows, mirrored=1)}
+    merits: Found = {name: [] for name in ("cornering_stiffness", "pneumatic_trail", "ply_steer_force", "conicity_force")}
+    for row in straight:
+        at = {"load": row["load"], "pressure": row["pressure"]}
+        merits["cornering_stiffness"].append({**at, "value": row["cornering_stiffness"]})
+        if (trail := _trail(done(rows, camber=0.0, load=row["load"], pressure=row["pressure"]))) is not None:
+            merits["pneumatic_trail"].append({**at, "value": trail})
+        if (other := mirrored.get(row["load"])) is not None and row["pressure"] == bench.pressure:
+            merits["ply_steer_force"].append({**at, "value": 0.5 * (row["Fy"] - other["Fy"])})
+            merits["conicity_force"].append({**at, "value": 0.5 * (row["Fy"] + other["Fy"])})
+    return merits
+
+
+def _trail(rows: Sequence[Row]) -> float | None:
+    """m: minus the moment's over the force's difference between the smallest slip angles of both signs."""
+    rows = [row for row in rows if not row.get("mirrored")]
+    right = min((row for row in rows if row["slip_angle"] > 0.0), key=lambda row: row["slip_angle"], default=None)
+    left = max((row for row in rows if row["slip_angle"] < 0.0), key=lambda row: row["slip_angle"], default=None)
+    if right is None or left is None:
+        return None
+    return float(-(right["Mz"] - left["Mz"]) / (right["Fy"] - left["Fy"]))
+
+
+def _longitudinal(bench: Bench, rows: Sequence[Row]) -> Found:
+    """Difference over the smallest slip ratios of both signs."""
+    stiffness = []
+    for load, pressure in sorted({(row["load"], row["pressure"]) for row in done(rows)}, key=str):
+        found = done(rows, load=load, pressure=pressure)
+        drives = min((row for row in found if row["slip_ratio"] > 0.0), key=lambda row: row["slip_ratio"], default=None)
+        brakes = max((row for row in found if row["slip_ratio"] < 0.0), key=lambda row: row["slip_ratio"], default=None)
+        if drives is not None and brakes is not None:
+            value = (drives["Fx"] - brakes["Fx"]) / (drives["slip_ratio"] - brakes["slip_ratio"])
+            stiffness.append({"load": load, "pressure": pressure, "value": float(value)})
+    return {"slip_stiffness": stiffness}
+
+
+def _rolling_resistance(bench: Bench, rows: Sequence[Row]) -> Found:
+    return {"coefficient": [{"load": row["load"], "pressure": row["pressure"], "speed": row["speed"], "value": row["coefficient"]}
+                            for row in done(rows)]}
+
+
+def _relaxation(bench: Bench, rows: Sequence[Row]) -> Found:
+    return {"length": [{"load": row["load"], "pressure": row["pressure"], "step": row["step"],
+                        "value": row["relaxation_length_63"]} for row in done(rows)]}
+
+
+def _cleat(bench: Bench, rows: Sequence[Row]) -> Found:
+    return {f"peak_to_peak_{name}": [{"speed": row["speed"], "value": row[f"peak_to_peak_{name}"]} for row in done(rows)]
+            for name in ("Fx", "Fz")}
+
+
+def _road(bench: Bench, rows: Sequence[Row]) -> Found:
+    return {f"rms_{name}": [{"speed": row["speed"], "value": row[f"rms_{name}"]} for row in done(rows)] for name in ("Fx", "Fz")}
+
+
+def _modes(bench: Bench, rows: Sequence[Row]) -> Found:
+    return {f"first_frequency_{name}": [{"value": row["frequency"]} for row in done(rows, standing=standing, mode=1)]
+            for name, standing in (("free", 0), ("standing", 1))}
+
+
+_FINDERS: Mapping[str, Callable[[Bench, Sequence[Row]], Found]] = {
+    "vertical": _vertical, "lateral": _lateral, "longitudinal": _longitudinal, "rolling-resistance": _rolling_resistance,
+    "relaxation": _relaxation, "cleat": _cleat, "road": _road, "modes": _modes}

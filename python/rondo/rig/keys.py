@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The keys of a rig file: what the tests of the rig vary, with units, bounds and meanings."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+NUMBER, NUMBERS, COUNT, TEXT = "a number", "a list of numbers", "a whole number", "a text"
+
+
+@dataclass(frozen=True)
+class Key:
+    name: str
+    kind: str     # one of the four above
+    unit: str     # "1" without dimension
+    meaning: str
+    low: float = float("-inf")
+    high: float = float("inf")
+    above: bool = False  # `low` itself is not allowed
+
+    def allowed(self) -> str:
+        """In words, for messages."""
+        bounds = []
+        if self.low > float("-inf"):
+            bounds.append(f"{'>' if self.above else '>='} {self.low:g}")
+        if self.high < float("inf"):
+            bounds.append(f"<= {self.high:g}")
+        unit = "" if self.unit == "1" else f" in {self.unit}"
+        return f"{self.kind}{unit}{', ' if bounds else ''}{' and '.join(bounds)}"
+
+
+def _angles(name: str, meaning: str) -> Key:
+    return Key(name, NUMBERS, "degrees", meaning, -44.0, 44.0)
+
+
+def _ratios(name: str, meaning: str) -> Key:
+    return Key(name, NUMBERS, "1", meaning, -0.9, 0.9)
+
+
+TOP = "at the top"
+_LOADS = Key("loads", NUMBERS, "N", "loads of the ground on the wheel", 0.0, above=True)
+_PRESSURES = Key("pressures", NUMBERS, "Pa", "pressures of the air, the nominal one among them", 0.0, above=True)
+_CAMBERS = _angles("cambers_deg", "inclination angles of ISO 8855: > 0 leans the top of the wheel to the right")
+_ANGLES = _angles("slip_angles_deg", "slip angles of ISO 8855: > 0 moves the wheel to the left of its heading")
+_RATIOS = _ratios("slip_ratios", "slip ratios of ISO 8855: < 0 brakes")
+_SPEEDS = Key("speeds", NUMBERS, "m/s", "speeds", 0.0, above=True)
+_MODES = Key("modes", COUNT, "1", "modes of the reduced wheel", 10, 600)
+_DAMPING = Key("mass_damping", NUMBER, "1/s", "damping.mass of these runs: 25 is 5 % of critical damping at 40 Hz", 0.0)
+
+TABLES: dict[str, tuple[Key, ...]] = {
+    TOP: (
+        Key("schema", COUNT, "1", "version of the format of rig files", 1, 1),
+        Key("load", NUMBER, "N", "nominal load, of tests with one load", 0.0, above=True),
+        Key("pressure", NUMBER, "Pa", "nominal pressure of the air", 0.0, above=True),
+        Key("speed", NUMBER, "m/s", "the wheel turns at this speed over its unloaded radius", 0.0, above=True),
+        Key("friction", NUMBER, "1", "coefficient of friction, in place of that of the case", 0.0, above=True),
+        Key("sectors", COUNT, "1", "columns of elements around the wheel", 12, 2000),
+        Key("samples_per_sector", COUNT, "1", "samples of steady rolling in the pass of a sector", 1, 16),
+        _LOADS, _PRESSURES, _CAMBERS),
+    "vertical": (_LOADS, _PRESSURES),
+    "footprint": (_LOADS, _CAMBERS),
+    "longitudinal": (
+        _LOADS, _PRESSURES, _RATIOS, _ratios("few_slip_ratios", "slip ratios at pressures that are not the nominal one")),
+    "lateral": (
+        _LOADS, _PRESSURES, _CAMBERS, _ANGLES,
+        _angles("few_slip_angles_deg", "slip angles at pressures that are not the nominal one, and with camber")),
+    "combined": (_LOADS, _ANGLES, _RATIOS),
+    "rolling-resistance": (_LOADS, _PRESSURES, _SPEEDS),
+    "relaxation": (
+        _LOADS, Key("slip_angle_step_deg", NUMBER, "degrees", "step of the slip angle", 0.001, 5.0),
+        Key("slip_ratio_step", NUMBER, "1", "step of the slip ratio", 1e-5, 0.1),
+        Key("distance", NUMBER, "m", "distance rolled after a step", 0.0, above=True)),
+    "cleat": (_SPEEDS, Key("height", NUMBER, "m", "height of the cleat; its ramps are of 45 degrees, or as flat as the mesh needs", 0.0, 0.1, above=True),
+              Key("length", NUMBER, "m", "length of its top along the way", 0.0, 1.0, above=True), _MODES, _DAMPING),
+    "modes": (Key("count", COUNT, "1", "modes of the free and of the standing wheel each", 1, 400),),
+    "road": (Key("length", NUMBER, "m", "length of road that is rolled over", 0.0, 1000.0, above=True),
+             Key("roughness", NUMBER, "m3", "displacement spectrum of the road at 0.1 cycles a metre, as in ISO 8608: "
+                 "1.6e-5 is the middle of class A, 6.4e-5 of B", 0.0, 0.1, above=True),
+             Key("seed", COUNT, "1", "seed of the road", 0, 2**31), _SPEEDS, _MODES, _DAMPING),
+}
+TESTS = tuple(name for name in TABLES if name != TOP)

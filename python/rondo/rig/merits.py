@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of merit of a rig as tables of its page."""
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..reports.document import folded, table
+from ..reports.encoding import number
+from .figures.drawing import said
+from .points import levels
+
+if TYPE_CHECKING:
+    from ..data.rig import Rig
+
+# By test and name in rig.json: what it is, factor from SI, unit.
+MERITS = {("vertical", "radial_stiffness"): ("Radial stiffness", 1e-3, "N/mm"),
+          ("vertical", "effective_radius"): ("Effective radius of free rolling", 1e3, "mm"),
+          ("lateral", "cornering_stiffness"): ("Cornering stiffness", 1e-3 * np.pi / 180, "kN/°"),
+          ("lateral", "pneumatic_trail"): ("Pneumatic trail", 1e3, "mm"),
+          ("lateral", "ply_steer_force"): ("Ply steer force", 1.0, "N"),
+          ("lateral", "conicity_force"): ("Conicity force", 1.0, "N"),
+          ("longitudinal", "slip_stiffness"): ("Slip stiffness", 1e-3, "kN"),
+          ("rolling-resistance", "coefficient"): ("Rolling resistance coefficient", 1.0, "N/kN"),
+          ("relaxation", "length"): ("Relaxation length", 1.0, "m"),
+          **{("cleat", f"peak_to_peak_{force}"): (f"{force} over the cleat, peak to peak", 1.0, "N") for force in ("Fx", "Fz")},
+          **{("road", f"rms_{force}"): (f"{force} on the road, standard deviation", 1.0, "N") for force in ("Fx", "Fz")},
+          **{("modes", f"first_frequency_{state}"): (f"First natural frequency, {state}", 1.0, "Hz")
+             for state in ("free", "standing")}}
+STATES = ("load", "pressure", "speed")  # that tell the entries of a figure apart
+HEAD = ("figure of merit", "at", "value")
+
+
+def merits_of(rig: Rig) -> str:
+    """A table of the figures at the nominal state, and one of all, folded. "": there are none."""
+    nominal, whole = [], []
+    for test, found in rig.figures.items():
+        for name, entries in found.items():
+            if not isinstance(entries, Sequence) or not all(isinstance(one, Mapping) for one in entries):
+                continue
+            what, factor, unit = MERITS.get((test, name), (name.replace("_", " ").capitalize(), 1.0, "SI"))
+            rows = [(what, _at(one), f"{number(factor * one['value'])} {unit}") for one in entries if _is_number(one.get("value"))]
+            whole += rows
+            usual = _nominal(entries)
+            nominal += [row for one, row in zip(entries, rows) if all(one.get(key) == value for key, value in usual.items())]
+    if not whole:
+        return ""
+    shown = table(HEAD, nominal, "Figures of merit at the nominal load, pressure and speed")
+    return shown + (folded(f"All {len(whole)} figures of merit", table(HEAD, whole, "Figures of merit"))
+                    if len(whole) > len(nominal) else "")
+
+
+def _nominal(entries: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """The state in the middle, one setting after another among the entries that have the ones before."""
+    state: dict[str, float] = {}
+    for key in STATES:
+        left = np.array([one[key] for one in entries if _is_number(one.get(key))
+                         and all(one.get(other) == value for other, value in state.items())], dtype=float)
+        if len(left):
+            there = levels(left)
+            state[key] = float(there[(len(there) - 1) // 2])
+    return state
+
+
+def _at(one: Mapping[str, Any]) -> str:
+    return ", ".join(said(key, float(value)) if _is_number(value) else str(value).replace("-", " ")
+                     for key, value in one.items() if key in (*STATES, "step"))
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a rig writes: rig.json, and a table of each test as CSV and TYDEX, anew as its blocks end."""
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+import os
+import pathlib
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from ..data.errors import FileError
+from ..data.tydex import write_tydex
+from ..files import tydex
+from .rows import DONE
+from .states import Row
+from .tests_table import TESTS
+
+FORMAT = "rondo rig 1"
+CHANNELS = {"SLIPANGL": "slip_angle", "LONGSLIP": "slip_ratio", "INCLANGL": "camber", "INFLPRES": "pressure",
+            "LONGVEL": "speed", "FX": "Fx", "FYW": "Fy", "FZW": "Fz", "MXW": "Mx", "MYW": "My", "MZW": "Mz",
+            "DSTGRWHC": "height"}
+
+
+def replace_text(path: pathlib.Path, text: str) -> None:
+    """As a whole: one who reads finds the old or the new file."""
+    beside = path.with_name(f".{path.name}.new")
+    try:
+        beside.write_text(text, encoding="utf-8")
+        os.replace(beside, path)
+    except OSError as reason:
+        raise FileError(f"{path}: cannot be written: {reason.strerror or reason}") from None
+
+
+def write_json(path: pathlib.Path, document: Mapping[str, Any]) -> None:
+    replace_text(path, json.dumps(_plain(document), indent=2, ensure_ascii=False) + "\n")
+
+
+def write_table(directory: pathlib.Path, test: str, rows: Sequence[Row]) -> str:
+    """Its CSV file; the name."""
+    columns = TESTS[test].columns
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows([_cell(row.get(name)) for name in columns] for row in rows)
+    replace_text(directory / f"{test}.csv", out.getvalue())
+    return f"{test}.csv"
+
+
+def write_channels(directory: pathlib.Path, test: str, title: str, rows: Sequence[Row]) -> str | None:
+    """Its TYDEX file, of the points that are done; None: of a test without forces, or without points."""
+    found = [row for row in rows if row["status"] == DONE and not row.get("mirrored")]
+    if not TESTS[test].has_forces or not found:
+        return None
+    columns = {name: [row[column] for row in found] for name, column in CHANNELS.items() if found[0][column] is not None}
+    comments = ["Computed states of steady rolling, not measured", title[:70]]
+    write_tydex(directory / f"{test}.tdx", tydex(columns, header={"RELEASE": "1.3", "MEASID": test}, comments=comments))
+    return f"{test}.tdx"
+
+
+def _cell(value: Any) -> str:
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return ""
+    return repr(float(value)) if isinstance(value, float) else str(value)
+
+
+def _plain(value: Any) -> Any:
+    """Without NaN, which is no JSON."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(part) for key, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(part) for part in value]
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    return value

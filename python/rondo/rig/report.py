@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page of a tyre test rig: figures of merit, tests, fit, measurements, in one file (docs/rig.md)."""
+from __future__ import annotations
+
+import os
+import pathlib
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..data.errors import Error
+from ..reports.document import Document, folded, note, paragraph, table, tiles
+from ..reports.encoding import escaped, number
+from ..reports.pictures import picture
+from .figures import figures_of, tir_of
+from .fit import NO_POINTS, has_forces, residuals_of
+from .fit_rows import rows_of
+from .merits import merits_of
+from .points import DONE
+from .trends import trends
+
+if TYPE_CHECKING:
+    from ..data.rig import Rig, RigTest
+    from .against import Comparison
+
+FIT_IT = "rondo.rig.fit.write_tir(rig, rig.directory / \"tyre.tir\") fits it, or tells what is missing."
+HOW = ("case", "version", "build_id", "quick", "radius")  # of rig.json, besides the settings
+FINISHED, LEFT_OUT = "finished", "left out"  # statuses of a test; a wheel may have no such test
+MEANINGS = {
+    "vertical": "How far a wheel that rolls freely comes down under a load: its springing, and its radii.",
+    "footprint": "Where the load is borne: size of the contact patch, pressure and shear in it.",
+    "longitudinal": "Braking and driving: the slope at no slip is the slip stiffness, the end is friction.",
+    "lateral": "Cornering: the slope at no slip angle is the cornering stiffness; moment over force is the trail.",
+    "combined": "Braking and cornering at once share the friction.",
+    "rolling-resistance": "What rolling costs: a moment against the spin.",
+    "relaxation": "How far the wheel rolls until a force has followed its slip.",
+    "cleat": "Forces on the axle as the wheel rolls over an obstacle.",
+    "modes": "Frequencies and shapes of small vibrations.",
+    "road": "Forces on the axle on a rough road."}
+
+
+def write(rig: Rig, path: str | os.PathLike[str], against: Comparison | None = None) -> pathlib.Path:
+    """Writes the page; of a rig that has not ended what is there."""
+    return page(rig, against).write(pathlib.Path(path))
+
+
+def page(rig: Rig, against: Comparison | None = None) -> Document:
+    document = Document(rig.title, "a tyre test rig")
+    document.section("summary", "Summary", _summary(rig))
+    drawn: dict[str, str] = {}
+    for one in figures_of(rig, against):
+        drawn[one.test] = drawn.get(one.test, "") + picture(one.figure, one.words)
+    for name, test in rig.tests.items():
+        document.section(f"test-{name}", escaped(name.replace("-", " ").capitalize()), _test(test, drawn.get(name, "")))
+    document.section("trends", "Trends of tyres", _trends(rig))
+    document.section("fit", "The fitted tyre.tir", _fit(rig))
+    if against is not None:
+        document.section("against", "Against measurements", _against(against))
+    document.section("how", "How it was run", _how(rig))
+    return document
+
+
+def _summary(rig: Rig) -> str:
+    statuses = [status for test in rig.tests.values() if (status := str(test.info.get("status", ""))) != LEFT_OUT]
+    done, failed = statuses.count(FINISHED), sum(_failed(test) for test in rig.tests.values())
+    cards = [("tests finished", f"{done} of {len(statuses)}", "good" if done == len(statuses) else "warn", ""),
+             ("points", number(sum(_points(test) for test in rig.tests.values())), "", "rows of all tables"),
+             ("failed points", number(failed), "warn" if failed else "good", "each with its reason below")]
+    unfinished = "" if done == len(statuses) else note(
+        "Not all tests of this rig are finished: the page shows what is there. The command that began it goes on with it.")
+    return unfinished + tiles(cards) + merits_of(rig)
+
+
+def _points(test: RigTest) -> int:
+    return len(test.table.get("status", ()))
+
+
+def _failed(test: RigTest) -> int:
+    return int((np.asarray(test.table.get("status", ()), dtype=str) == "failed").sum())
+
+
+def _value(value: Any) -> str:
+    """Numbers, lists and tables of them as text."""
+    if isinstance(value, Mapping):
+        return "; ".join(f"{key}: {_value(part)}" for key, part in value.items())
+    if isinstance(value, (list, tuple)):
+        return ", ".join(map(_value, value))
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return number(value) if isinstance(value, (int, float)) or value is None else str(value)
+
+
+def _test(test: RigTest, drawn: str) -> str:
+    status = str(test.info.get("status", "not begun"))
+    reason = test.info.get("reason")
+    said = paragraph(escaped(MEANINGS.get(test.name, "")))
+    if status != FINISHED:
+        said += note(f"Status: {status}{f': {reason}' if reason else ''}")
+    said += _failures(test) + drawn
+    if not test.table:
+        return said
+    head = [name for name, column in test.table.items() if name not in ("status", "reason") and _says_something(column)]
+    rows = [[cell if isinstance(cell, str) else number(float(cell)) for cell in row]
+            for row in zip(*(test.table[name].tolist() for name in head))]
+    return said + folded(f"Table of {_points(test)} points, SI units",
+                         table(head, rows, f"Points of the test {test.name}", ["number"] * len(head)))
+
+
+def _says_something(column: np.ndarray) -> bool:
+    return bool(np.isfinite(column).any() if column.dtype.kind == "f" else (column != "").any())
+
+
+def _failures(test: RigTest) -> str:
+    if "status" not in test.table:
+        return ""
+    reasons = test.table.get("reason", np.full(_points(test), "no reason was kept"))
+    items = [f"<li>point {k + 1}: {escaped(str(reasons[k]))}</li>"
+             for k in np.flatnonzero(test.table["status"] != DONE)]
+    return f'<div class="note"><p>Points without results:</p><ul>{"".join(items)}</ul></div>' if items else ""
+
+
+def _trends(rig: Rig) -> str:
+    words = {True: "yes", False: "no", None: "not told by these points"}
+    return paragraph("What pneumatic tyres do, with the numbers of a measured racing tyre (Hoosier 43075 16×7.5-10, data "
+                     "of the FSAE Tire Test Consortium). Trends are compared, not values.") + \
+        table(("trend", "measured tyre", "this rig", "the same"),
+              [(one.name, one.measured, one.found, words[one.holds]) for one in trends(rig)], "Trends")
+
+
+def _fit(rig: Rig) -> str:
+    try:
+        tir = tir_of(rig)
+    except Error as reason:
+        return note(reason)
+    if tir is None:
+        return note("There is no tyre.tir: " + (FIT_IT if has_forces(rows_of(rig)) else NO_POINTS))
+    rows = [(name, one.rows, f"{number(one.rms)} {one.unit}", f"{number(100 * one.of_largest, 3)} %",
+             f"{number(one.largest)} {one.unit}") for name, one in residuals_of(tir, rows_of(rig)).items()]
+    shown = table(("channel", "points", "rms of the difference", "over the largest size", "largest difference"), rows,
+                  "tyre.tir evaluated at the points of the rig")
+    said = "<br>".join(escaped(line.lstrip("$! ")) for line in tir.comments)
+    return shown + folded("What the file says of itself", paragraph(said))
+
+
+def _against(against: Comparison) -> str:
+    rows = [(one.test, one.channel, f"{number(one.rms)} {one.unit}", f"{number(100 * one.of_largest, 3)} %",
+             f"{number(one.mean)} {one.unit}", one.rows, one.beyond) for one in against.differences]
+    return paragraph(f"The rig less the measurements of {escaped(against.path.name)}, over the states that both have.") + \
+        table(("test", "channel", "rms", "over the largest measured", "mean", "rows", "beyond the points of the rig"), rows,
+              "Differences between the rig and the measurements")
+
+
+def _how(rig: Rig) -> str:
+    rows = [(key, _value(value)) for key, value in rig.info.items() if key in HOW]
+    rows += [(f"settings: {key}", _value(value)) for key, value in rig.settings.items()]
+    times = [(name, str(test.info.get("status", "")), number(test.info.get("seconds"), 3))
+             for name, test in rig.tests.items()]
+    return table(("", ""), rows, "Case, version and settings") + table(("test", "status", "seconds"), times, "Tests")

@@ -1,0 +1,144 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows of the tables of the rig, from what its blocks wrote: a row for each point, also of those that failed."""
+from __future__ import annotations
+
+import csv
+import pathlib
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..data import axes
+from ..data.errors import Error
+from ..data.files import read_json
+from ..data.plain_files import text_of
+from ..data.run import open_run
+from ..data.sweep import open_sweep
+from .blocks import MODES, RESULTS, SWEEP, Bench, Block, Point
+from .states import Row, States
+from .time_tests import SETTLING, measured_from
+
+DONE, FAILED = "done", "failed"
+FORCE_OF = {"slip-angle": "force_lateral", "slip-ratio": "force_x"}  # by the step
+
+
+def rows_of_block(bench: Bench, states: States | None, block: Block, runs: pathlib.Path, failure: str) -> list[Row]:
+    """@param failure: what the command said where it left no results; "": nothing."""
+    folder = runs / block.name / RESULTS
+    where = f"runs/{block.name}/{RESULTS}"
+    try:
+        return list(_rows(bench, states, block, folder, where))
+    except (Error, KeyError, IndexError, ValueError) as reason:
+        said = "; ".join((failure or f"its results cannot be read: {reason}").splitlines())
+        return [{**_asked(p), "run": where, "status": FAILED, "reason": said} for p in block.points]
+
+
+def _rows(bench: Bench, states: States | None, block: Block, folder: pathlib.Path, where: str) -> Iterator[Row]:
+    if block.kind == SWEEP:
+        yield from _of_sweep(bench, states, block, folder, where)
+    elif block.kind == MODES:
+        yield from _of_modes(block, folder, where)
+    elif block.test in ("cleat", "road"):
+        yield _of_history(bench, block, folder, where)
+    else:
+        info = read_json(folder / "run.json")
+        _demand_done(info)
+        yield _relaxation(block.points[0], info, where) if block.test == "relaxation" else \
+            _of_steady(bench, states, block.points[0], info, where)
+
+
+def _asked(p: Point) -> dict[str, Any]:
+    return {"load": p.load, "pressure": p.pressure, "camber": p.camber, "slip_angle": p.slip_angle,
+            "slip_ratio": p.slip_ratio, "speed": p.speed, **p.extra}
+
+
+def _demand_done(info: Mapping[str, Any]) -> None:
+    if info.get("status") != DONE:
+        raise Error(str(info.get("message") or f'status "{info.get("status")}"'))
+
+
+# Steady rolling
+
+def _of_sweep(bench: Bench, states: States | None, block: Block, folder: pathlib.Path, where: str) -> Iterator[Row]:
+    sweep = open_sweep(folder, unfinished=True)
+    for k, p in enumerate(block.points):
+        found = {name: sweep[name][k] for name in sweep.names}
+        place = f"{where} {k + 1}"
+        if found["status"] == DONE:
+            yield _row(bench, states, p, found, place)
+        else:
+            reason = sweep.failures.get(k + 1, f"status {found['status']}")
+            yield {**_asked(p), "run": place, "status": FAILED, "reason": reason}
+
+
+def _of_steady(bench: Bench, states: States | None, p: Point, info: Mapping[str, Any], where: str) -> Row:
+    found = dict(info["steady"])
+    found |= {"height_m": found["height"], "footprint_length_m": found.get("footprint_length"),
+              "footprint_width_m": found.get("footprint_width"), "pressure_mean_pa": found.get("pressure_mean"),
+              "contact_area_m2": found.get("stick_area", 0.0) + found.get("slip_area", 0.0)}
+    return _row(bench, states, p, found, where)
+
+
+def free_radius(found: Mapping[str, Any], spin: float) -> float:
+    """m: that of the slip ratio (w R - V) / max(|V|, |w R|) of a state, which is the wheel's without load."""
+    slip, speed = float(found["slip_ratio"]), float(found["speed"])
+    return speed / (1.0 - slip) / spin if slip >= 0.0 else speed * (1.0 + slip) / spin
+
+
+def _row(bench: Bench, states: States | None, p: Point, found: Mapping[str, Any], where: str) -> Row:
+    tyre = axes.convert(axes.own(
+        **{name: found[name] for name in ("force_x", "force_y", "force_lateral", "moment_aligning", "moment_overturning",
+                                          "torque")},
+        height=found["height_m"], camber=-p.camber, slip_angle=-p.slip_angle), "iso-w")
+    spin, ahead = bench.spin(p.speed), float(found["speed"]) * np.cos(p.slip_angle)
+    free = p.slip_angle == 0.0 and p.camber == 0.0 and p.slip_ratio is None
+    radius = ahead / spin if free or states is None else states.effective_radius(p.pressure, p.load)
+    return {
+        **_asked(p), "slip_ratio": 0.0 if free else spin * radius / ahead - 1.0, "speed": float(found["speed"]),
+        "height": float(found["height_m"]), "deflection": free_radius({**found, "speed": ahead}, spin) - float(found["height_m"]),
+        "effective_radius": ahead / spin if p.slip_ratio is None else None, "contact_length": found.get("footprint_length_m"),
+        "contact_width": found.get("footprint_width_m"), "contact_area": found.get("contact_area_m2"),
+        "mean_pressure": found.get("pressure_mean_pa"),
+        **{name: float(getattr(tyre, name)) for name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")},
+        "cornering_stiffness": found.get("cornering_stiffness"), "resistance": found.get("rolling_resistance"),
+        "coefficient": 1e3 * float(found["rolling_resistance"]) / p.load, "scheme_share": found.get("scheme_share"),
+        "run": where, "status": DONE, "reason": ""}
+
+
+def _relaxation(p: Point, info: Mapping[str, Any], where: str) -> Row:
+    name = FORCE_OF[p.extra["step"]]
+    found = info["slip_step"][name]
+    row = {**_asked(p), "run": where, "status": DONE, "reason": ""}
+    if found["relaxation_length"] is None:
+        return row | {"status": FAILED, "reason": f"{name} reaches {100.0 * found['share']:.0f} % of its change: roll farther "
+                      "(relaxation.distance)"}
+    return row | {"relaxation_length_63": found["relaxation_length"], "relaxation_length_fit": found["fitted_length"]}
+
+
+# In time
+
+def _of_history(bench: Bench, block: Block, folder: pathlib.Path, where: str) -> Row:
+    """Peaks and rms of the ground's forces from the cleat or the road on; the mean load before them."""
+    run, p = open_run(folder), block.points[0]
+    time, along, up = (np.asarray(run.history[name]) for name in ("time_s", "force_x", "force_y"))
+    piece, before = time >= measured_from(bench, block), (time >= 0.8 * SETTLING) & (time < SETTLING)
+    if piece.sum() < 2:
+        raise Error("the road ends before all of the contact is on it: a longer one (road.length)")
+    row = {**_asked(p), "mean_Fz": float(up[before].mean()), "run": where, "status": DONE, "reason": ""}
+    if block.test == "cleat":
+        return row | {"peak_to_peak_Fx": float(np.ptp(along[piece])), "peak_to_peak_Fz": float(np.ptp(up[piece]))}
+    return row | {"rms_Fx": float(along[piece].std()), "rms_Fz": float(up[piece].std())}
+
+
+def _of_modes(block: Block, folder: pathlib.Path, where: str) -> Iterator[Row]:
+    p = block.points[0]
+    for row in csv.DictReader(text_of(folder / "modes.csv").splitlines()):
+        yield {**_asked(p), "mode": int(row["mode"]), "frequency": float(row["frequency_hz"]),
+               "damping_ratio": float(row["damping_ratio"] or "nan"), "nodal_diameter": row["nodal_diameters"] or None,
+               "run": where, "status": DONE, "reason": ""}
+
+
+def done(rows: Sequence[Row], **wanted: Any) -> list[Row]:
+    """Those that are done and have these values."""
+    return [row for row in rows if row["status"] == DONE and all(row.get(name) == value for name, value in wanted.items())]

@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A rig file: what the tests of the rig vary. What it leaves out has defaults that fit the tyre (defaults.py)."""
+from __future__ import annotations
+
+import difflib
+import math
+import pathlib
+import tomllib
+from collections.abc import Mapping
+from typing import Any
+
+from ..data.errors import InputError
+from ..data.plain_files import text_of
+from .keys import COUNT, NUMBER, NUMBERS, TABLES, TEXT, TOP, Key
+from .toml_text import value_text
+
+Values = dict[str, Any]
+Settings = dict[str, Values]  # by table and key, in the units of keys.py; TOP has those of all tests
+
+
+def read_settings(path: pathlib.Path | None) -> Settings:
+    """What a rig file says; without one, nothing.
+    @raise InputError: with all that is wrong in it."""
+    if path is None:
+        return {TOP: {}}
+    try:
+        found = tomllib.loads(text_of(path))
+    except ValueError as reason:
+        raise InputError(f"{path}: cannot be read: {reason}") from None
+    wrong: list[str] = [] if "schema" in found else ["schema: is missing (allowed: schema = 1)"]
+    given: Settings = {}
+    single = {name: value for name, value in found.items() if not isinstance(value, Mapping)}
+    given[TOP] = _table("", TABLES[TOP], single, wrong)
+    for name, value in found.items():
+        if not isinstance(value, Mapping):
+            continue
+        if name in TABLES and name != TOP:
+            given[name] = _table(f"{name}.", TABLES[name], value, wrong)
+        else:
+            wrong.append(f"[{name}]: no such table (allowed: {_near(name, [n for n in TABLES if n != TOP])})")
+    if wrong:
+        raise InputError("\n".join(f"{path}: {text}" for text in wrong))
+    return given
+
+
+def settings_text(settings: Settings, title: str) -> str:
+    """A rig file with all values, and what each key means."""
+    lines = [f"# What the rig does with: {title}. These are the defaults; leave out what you do not change.",
+             "# Angles, slip ratios and forces are those of ISO 8855 (docs/conventions.md).", ""]
+    for table, keys in TABLES.items():
+        if table != TOP:
+            lines += ["", f"[{table}]"]
+        for key in keys:
+            value = settings.get(table, {}).get(key.name)
+            if value is not None:
+                unit = "" if key.unit == "1" else f", {key.unit}"
+                lines.append(f"{key.name} = {value_text(value)}  # {key.meaning}{unit}")
+    return "\n".join(lines) + "\n"
+
+
+def _table(prefix: str, keys: tuple[Key, ...], found: Mapping[str, Any], wrong: list[str]) -> Values:
+    known = {key.name: key for key in keys}
+    values: Values = {}
+    for name, value in found.items():
+        if name not in known:
+            wrong.append(f"{prefix}{name}: no such key (allowed: {_near(name, list(known))})")
+        elif not _is_right(known[name], value):
+            wrong.append(f"{prefix}{name} = {_short(value)} (allowed: {known[name].allowed()})")
+        else:
+            values[name] = _plain(known[name], value)
+    return values
+
+
+def _short(value: object) -> str:
+    try:
+        text = value_text(value)
+    except TypeError:  # a date
+        text = str(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def _near(name: str, there: list[str]) -> str:
+    close = difflib.get_close_matches(name, there, 1)
+    return f"{close[0]}?  All: {', '.join(there)}" if close else ", ".join(there)
+
+
+def _is_right(key: Key, value: object) -> bool:
+    if key.kind == TEXT:
+        return isinstance(value, str)
+    if key.kind == NUMBERS:
+        return (isinstance(value, list) and bool(value) and all(_is_number(key, part) for part in value)
+                and len(set(value)) == len(value))
+    return _is_number(key, value) and (key.kind != COUNT or isinstance(value, int))
+
+
+def _is_number(key: Key, value: object) -> bool:
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+        return False
+    return key.low <= value <= key.high and not (key.above and value == key.low)
+
+
+def _plain(key: Key, value: Any) -> Any:
+    """Numbers as floats, but counts; lists in their order of size."""
+    if key.kind == NUMBER:
+        return float(value)
+    return sorted(float(part) for part in value) if key.kind == NUMBERS else value

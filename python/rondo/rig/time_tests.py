@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests in time, by the reduced wheel, and modes: the blocks of each."""
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from .blocks import FMU, MODES, RUN, Bench, Block, Point, ground_of, steady_case, tyre_case
+from .states import States
+
+LANDING = 0.06        # s, in which the wheel comes down to its height
+SETTLING = 0.15       # s, after which the cleat or the road begins
+AFTER = 0.15          # s, after the cleat
+SPACING = 0.05        # m, of the points of a road
+LONGEST, SHORTEST = 20.0, 0.2  # m, wave lengths of a road
+INTERVAL = 1e-3       # s, at most: of the history of these tests
+FINEST = 2e-4
+
+
+def measured_from(bench: Bench, block: Block) -> float:
+    """s: all of the contact is at the cleat or on the road."""
+    return SETTLING + (0.0 if block.test == "cleat" else bench.radius / block.points[0].speed)
+
+
+def node_distance(bench: Bench) -> float:
+    """m, of two contact nodes around the wheel, with a margin: edges of the ground are as round, because contacts are at
+    nodes."""
+    return 1.05 * 2.0 * math.pi * bench.radius / float(bench.top["sectors"])
+
+
+def cleat_ramp(height: float, length: float, fillet: float) -> float:
+    """m, along the ground: 45 degrees, or as flat as it takes that fillets of this radius fit on half of the top and on
+    the ramp."""
+    angle = min(0.25 * math.pi, 2.0 * math.atan(0.49 * length / fillet), math.acos(max(0.0, 1.0 - 0.98 * height / fillet)))
+    return height / math.tan(angle)
+
+
+def cleat_profile(at: float, ramp: float, height: float, length: float, end: float) -> list[list[float]]:
+    return [[-10.0, 0.0], [at, 0.0], [at + ramp, height], [at + ramp + length, height],
+            [at + 2.0 * ramp + length, 0.0], [end, 0.0]]
+
+
+def road_profile(roughness: float, seed: int, begin: float, length: float) -> list[list[float]]:
+    """A road with the displacement spectrum G(n) = roughness (n / n0)^-2, n0 = 0.1 1/m, as sum of cosines with random
+    phases; it begins at 0 and rises to its roughness over a meter."""
+    phases = np.random.default_rng(seed).uniform(0.0, 2.0 * math.pi, 400)
+    n = np.linspace(1.0 / LONGEST, 1.0 / SHORTEST, 400)
+    amplitudes = np.sqrt(2.0 * roughness * (n / 0.1) ** -2 * (n[1] - n[0]))
+    x = np.arange(0.0, length + SPACING, SPACING)
+    heights = (amplitudes[:, None] * np.cos(2.0 * math.pi * n[:, None] * x + phases[:, None])).sum(axis=0)
+    heights = (heights - heights[0]) * np.minimum(x, 1.0)
+    points = np.column_stack([x + begin, heights]).round(6).tolist()
+    return [[-10.0, 0.0], *points, [begin + length + 100.0, points[-1][1]]]
+
+
+def _rolling(bench: Bench, states: States, name: str, p: Point, own: dict[str, Any], profile: Any, end: float) -> Block:
+    """Rolls freely at the height that the load has on flat ground; height, speed and spin are held."""
+    height, radius = states.height(p.pressure, p.load), states.effective_radius(p.pressure, p.load)
+    case = tyre_case(bench, name, p.pressure)
+    case["damping"] = {**case.get("damping", {}), "mass": own["mass_damping"]}
+    case["motion"] = {"angular_velocity": bench.spin(p.speed), "speed": bench.spin(p.speed) * radius,
+                      "height": [[0.0, bench.radius + 1e-4], [LANDING, height]]}
+    case["ground"] = {**ground_of(bench, profile), "fillet": node_distance(bench)}
+    case["time"] = {"end": end}
+    case["output"] = {"stress": False, "snapshots": 1, "history_interval": max(FINEST, min(INTERVAL, 0.005 / p.speed))}
+    return Block(name.split("-")[0], name, RUN, case, (p,), options=("--reduced", "--modes", str(own["modes"])))
+
+
+def cleat(bench: Bench, states: States) -> list[Block]:
+    own, blocks = bench.settings["cleat"], []
+    for speed in own["speeds"]:
+        p = Point(bench.top["load"], bench.pressure, speed)
+        at = speed * SETTLING + 0.5 * bench.radius
+        ramp = cleat_ramp(own["height"], own["length"], node_distance(bench))
+        passed = at + 2.0 * ramp + own["length"] + 0.5 * bench.radius
+        end = passed / speed + AFTER
+        profile = cleat_profile(at, ramp, own["height"], own["length"], 2.0 * passed + speed)
+        blocks.append(_rolling(bench, states, f"cleat-{speed:g}mps", p, own, profile, end))
+    return blocks
+
+
+def road(bench: Bench, states: States) -> list[Block]:
+    own, blocks = bench.settings["road"], []
+    for speed in own["speeds"]:
+        p = Point(bench.top["load"], bench.pressure, speed)
+        begin = speed * SETTLING + 0.5 * bench.radius
+        profile = road_profile(own["roughness"], own["seed"], begin, own["length"])
+        blocks.append(_rolling(bench, states, f"road-{speed:g}mps", p, own, profile, (begin + own["length"]) / speed))
+    return blocks
+
+
+def fmu(bench: Bench, states: States) -> Block:
+    """The reduced wheel on flat ground, at its height under the nominal load."""
+    p = Point(bench.top["load"], bench.pressure, bench.top["speed"])
+    block = _rolling(bench, states, "fmu", p, bench.settings["road"], "flat", 1.0)
+    return replace(block, kind=FMU, options=block.options[1:])  # without --reduced, which it is
+
+
+def modes(bench: Bench, states: States) -> list[Block]:
+    """Free under air, and standing on the ground under the nominal load; both without spin."""
+    p = Point(bench.top["load"], bench.pressure, 0.0)
+    count = str(bench.settings["modes"]["count"])
+    blocks = []
+    for name, more in (("free", ()), ("standing", ("--standing",))):
+        case = steady_case(bench, f"modes-{name}", p.pressure, bench.spin(), torque=0.0)
+        options: Sequence[str] = ("--count", count, "--spin", "0", *more)
+        point = Point(p.load, p.pressure, 0.0, extra={"standing": int(name == "standing")})
+        blocks.append(Block("modes", f"modes-{name}", MODES, case, (point,), options=tuple(options)))
+    return blocks

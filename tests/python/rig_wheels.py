@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A small wheel for the tyre test rig: a cylinder of rubber with cords at an angle, so that it steers by its plies."""
+import os
+import subprocess
+import sys
+
+# A box of 2 x 3 elements; a state is some milliseconds.
+WHEEL = """schema = 1
+title = "Small wheel"
+[disk]
+outer_radius = 0.30
+inner_radius = 0.20
+width = 0.10
+[disk.mesh]
+radial = 2
+circumferential = 60
+axial = 4
+[material]
+youngs_modulus = 5.0e6
+poissons_ratio = 0.3
+density = 1100.0
+[damping]
+stiffness = 2.0e-5
+[motion]
+angular_velocity = 40.0
+[ground]
+profile = "flat"
+friction = 0.8
+[analysis]
+kind = "steady-rolling"
+load = 4000.0
+torque = 0.0
+samples_per_sector = 2
+"""
+RIG = """schema = 1
+loads = [2000.0, 4000.0, 6000.0]
+cambers_deg = [0.0, 3.0]
+[lateral]
+slip_angles_deg = [-6.0, -2.0, -0.5, 0.0, 0.5, 2.0, 6.0]
+few_slip_angles_deg = [-2.0, 0.0, 2.0]
+[footprint]
+loads = [2000.0, 4000.0]
+[road]
+length = 1.0
+modes = 20
+[cleat]
+modes = 20
+height = 0.006
+length = 0.06
+"""
+
+
+def rig(*arguments, code=0):
+    done = subprocess.run([sys.executable, "-m", "rondo", "rig", *map(str, arguments)], capture_output=True, text=True,
+                          env=os.environ)
+    assert done.returncode == code, done.stderr
+    return done
+
+
+def files(folder, case=WHEEL, settings=RIG):
+    """(case file, rig file)"""
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "wheel.toml").write_text(case)
+    (folder / "rig.toml").write_text(settings)
+    return folder / "wheel.toml", folder / "rig.toml"

@@ -1,0 +1,172 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo rig: a small wheel through all tests; resumed, refused, with points that fail."""
+import json
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+from rig_wheels import RIG, WHEEL, files, rig
+
+import rondo
+from rondo.rig.settings import read_settings, settings_text
+from rondo.rig.time_tests import cleat_ramp, road_profile
+
+FEW = "vertical,footprint,rolling-resistance"
+
+
+@pytest.fixture(scope="module")
+def done(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("rig")
+    case, settings = files(folder)
+    said = rig(case, "--rig", settings, "--quick", "-o", folder / "done").stderr
+    assert "14 of 14" in said and "left" in said
+    return folder / "done"
+
+
+def columns(found, test, *names, **wanted):
+    table = found.tests[test].table
+    rows = np.logical_and.reduce([np.isclose(table[name], value) for name, value in wanted.items()])
+    return [table[name][rows] for name in names]
+
+
+def test_all_tests_are_done(done):
+    found = rondo.open_rig(done)
+    assert [test.info["status"] for test in found.tests.values()] == ["finished"] * 10
+    assert all((test.table["status"] == "done").all() for test in found.tests.values())
+    for name in ("report.html", "tyre.tir", "lateral.tdx", "figures/vertical.png", "runs/vertical/study.toml"):
+        assert (done / name).is_file(), name
+
+
+def test_signs_and_trends(done):
+    found = rondo.open_rig(done)
+    force, moment = columns(found, "lateral", "Fy", "Mz", slip_angle=np.radians(2.0), camber=0.0)
+    assert (force < 0).all() and (moment > 0).all()  # ISO 8855: it moves to the left, and is pushed to the right
+    drive, = columns(found, "longitudinal", "Fx", slip_ratio=0.03, load=4000.0)
+    brake, = columns(found, "longitudinal", "Fx", slip_ratio=-0.03, load=4000.0)
+    assert drive[0] > 0 > brake[0]
+    merits = found.figures["lateral"]
+    stiffness = [one["value"] for one in merits["cornering_stiffness"]]
+    trail = [one["value"] for one in merits["pneumatic_trail"]]
+    assert np.all(np.diff(stiffness) > 0) and np.diff(stiffness, 2)[0] < 0.5 * stiffness[0]
+    assert np.all(np.diff(trail) > 0)
+
+
+def test_friction_is_felt(done, tmp_path):
+    case, settings = files(tmp_path, settings=RIG.replace("schema = 1", "schema = 1\nfriction = 0.5"))
+    rig(case, "--rig", settings, "--quick", "--tests", "lateral", "-o", tmp_path / "slippery")
+    force = [columns(rondo.open_rig(folder), "lateral", "Fy", slip_angle=np.radians(6.0), load=2000.0, camber=0.0)[0][0]
+             for folder in (done, tmp_path / "slippery")]
+    assert 0.5 / 0.8 < force[1] / force[0] < 0.75  # nearly all of the contact slides
+
+
+def test_slopes_are_those_of_the_points(done):
+    """Cornering stiffness is the solver's slope, slip stiffness a difference."""
+    found = rondo.open_rig(done)
+    for one in found.figures["lateral"]["cornering_stiffness"]:
+        left, = columns(found, "lateral", "Fy", slip_angle=np.radians(-0.5), load=one["load"], camber=0.0)
+        right, = columns(found, "lateral", "Fy", slip_angle=np.radians(0.5), load=one["load"], camber=0.0)
+        assert one["value"] == pytest.approx((left - right)[0] / np.radians(1.0), rel=0.05)
+
+
+def test_tydex_has_the_points(done):
+    from rondo import files as exchanged
+    tydex, table = exchanged.read_tydex(done / "lateral.tdx"), rondo.open_rig(done).tests["lateral"].table
+    assert tydex["FYW"] == pytest.approx(table["Fy"], rel=1e-5, abs=1e-3)
+    assert tydex["SLIPANGL"] == pytest.approx(table["slip_angle"], abs=1e-6)
+
+
+def test_the_same_command_keeps_all(done):
+    before = {path: path.stat().st_mtime_ns for path in (done / "runs").rglob("*.csv")}
+    again = rig(done.parent / "wheel.toml", "--rig", done.parent / "rig.toml", "--quick", "--tests", FEW, "-o", done)
+    assert "1 of 1 parts are there already" in again.stderr
+    assert {path: path.stat().st_mtime_ns for path in (done / "runs").rglob("*.csv")
+            if path.parts[-3] != "reference"} == {path: when for path, when in before.items() if path.parts[-3] != "reference"}
+
+
+def test_killed_and_resumed(done, tmp_path):
+    case, settings = files(tmp_path)
+    command = [sys.executable, "-m", "rondo", "rig", str(case), "--rig", str(settings), "--quick", "--tests", FEW, "-o",
+               str(tmp_path / "killed"), "--jobs", "1"]
+    running = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    kept = tmp_path / "killed" / "footprint.csv"
+    deadline = time.monotonic() + 60
+    while not (kept.exists() and len(kept.read_text().splitlines()) > 1):
+        assert time.monotonic() < deadline and running.poll() is None
+        time.sleep(0.01)
+    running.send_signal(signal.SIGKILL)
+    running.wait()
+    assert rondo.open_rig(tmp_path / "killed").tests["footprint"].info["status"] in ("unfinished", "finished")
+    assert "already and kept" in rig(*command[4:]).stderr
+    for test in FEW.split(","):
+        assert (tmp_path / "killed" / f"{test}.csv").read_bytes() == (done / f"{test}.csv").read_bytes(), test
+
+
+def test_a_point_that_fails_is_a_row(tmp_path):
+    case, settings = files(tmp_path, settings=RIG + "[vertical]\nloads = [4000.0, 1.8e5]\n")
+    said = rig(case, "--rig", settings, "--quick", "--tests", "vertical", "-o", tmp_path / "rig", code=3).stderr
+    assert "vertical: 1 of 2 points failed" in said
+    table = rondo.open_rig(tmp_path / "rig").tests["vertical"].table
+    assert list(table["status"]) == ["done", "failed"] and "load" in table["reason"][1]
+
+
+def test_another_tyre_is_refused(done, tmp_path):
+    case, settings = files(tmp_path, WHEEL.replace("5.0e6", "6.0e6"))
+    said = rig(case, "--rig", settings, "--quick", "-o", done, code=2).stderr
+    assert "holds a rig of another case" in said and "--overwrite" in said
+
+
+def test_dry_run_and_defaults(tmp_path):
+    case, settings = files(tmp_path)
+    plan = rig(case, "--rig", settings, "--dry-run").stdout
+    assert all(name in plan for name in ("vertical", "relaxation", "road", "all")) and "points" in plan
+    text = rig(case, "--rig", settings, "--write-defaults").stdout
+    (tmp_path / "all.toml").write_text(text)
+    found = read_settings(tmp_path / "all.toml")
+    assert found["lateral"]["slip_angles_deg"] == [-6.0, -2.0, -0.5, 0.0, 0.5, 2.0, 6.0]
+    assert settings_text(found, "Small wheel") == text
+    assert not (tmp_path / "wheel-rig").exists()
+
+
+@pytest.mark.parametrize("text, words", [
+    ("load = 1\n", "schema: is missing"),
+    ("schema = 1\nlaod = 1.0\n", "laod: no such key (allowed: load?"),
+    ("schema = 1\n[lateral]\nslip_angles_deg = [50.0]\n", "slip_angles_deg = [50.0] (allowed: a list of numbers in degrees"),
+    ("schema = 1\n[latral]\n", "[latral]: no such table (allowed: lateral?"),
+    ("schema = 1\npressures = [2e5]\n", "has no [inflation]"),
+    ("schema = 1\nloads = []\n", "loads = []"), ("schema = ", "cannot be read")])
+def test_mistakes_in_a_rig_file(tmp_path, text, words):
+    case, settings = files(tmp_path, settings=text)
+    assert words in rig(case, "--rig", settings, "-o", tmp_path / "rig", code=2).stderr
+    assert not (tmp_path / "rig" / "rig.json").exists()
+
+
+@pytest.mark.parametrize("old, new, words", [
+    ("load = 4000.0\n", "", "give load = 4000.0 in a rig file"),
+    ("width = 0.10\n", "", "the rig tests wheels in three dimensions"),
+    ("angular_velocity = 40.0\n", "", "give speed = 13.7"),
+    ("load = 4000.0\n", "load = 1.8e5\n", "the tyre does not roll under its nominal load")])
+def test_mistakes_in_a_case(tmp_path, old, new, words):
+    case, _ = files(tmp_path, WHEEL.replace(old, new))
+    assert words in rig(case, "-o", tmp_path / "rig", code=2).stderr
+
+
+def test_unknown_tests_are_refused(tmp_path):
+    case, _ = files(tmp_path)
+    assert "--tests: braking: no such test (allowed: vertical" in rig(case, "--tests", "braking", code=2).stderr
+
+
+def test_roads_have_their_roughness():
+    """rms of the displacement: the integral of G over the wave numbers."""
+    points = np.array(road_profile(1.6e-5, 3, 0.0, 400.0))[1:-1]
+    expected = np.sqrt(1.6e-5 * 0.1**2 * (1 / 0.05 - 1 / 5.0))
+    assert points[20:, 1].std() == pytest.approx(expected, rel=0.15)
+    assert json.dumps(road_profile(1.6e-5, 3, 0.0, 9.0)) == json.dumps(road_profile(1.6e-5, 3, 0.0, 9.0))
+
+
+def test_ramps_leave_room_for_fillets():
+    assert cleat_ramp(0.01, 0.02, 0.005) == pytest.approx(0.01)
+    flat = cleat_ramp(0.01, 0.02, 0.03)
+    assert flat > 0.01 and 0.03 * np.tan(0.5 * np.arctan(0.01 / flat)) <= 0.01
