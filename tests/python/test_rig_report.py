@@ -69,6 +69,19 @@ def test_figures_of_merit_at_the_nominal_state(whole):
     assert "1.396 kN/°" not in shown and "1.396 kN/°" in whole.text
 
 
+def test_the_nominal_state_is_that_of_the_settings(tmp_path):
+    """The speed of a wheel is near to that of the settings; numbers of round-off are zero."""
+    merits = {"rolling-resistance": {"figures": {"coefficient": [
+        {"load": load, "pressure": pressure, "speed": speed * pressure / 2.2e5, "value": 1e-3 * load + 1e-5 * pressure + speed}
+        for load in (2e3, 4e3, 6e3) for pressure in (2.2e5, 2.21e5) for speed in (10.0, 20.0)]}},
+        "lateral": {"figures": {"conicity_force": [{"load": 6e3, "value": -1.3e-9}]}}}
+    rows = {"lateral": rigs.all_tests()["lateral"][:1]}
+    folder = rigs.write(tmp_path / "rig", rows, merits, {"load": 6e3, "pressure": 2.21e5, "speed": 20.0})
+    shown = page_of(folder).text.split("Figures of merit at the nominal")[1].split("All ")[0]
+    assert "6 kN, 2.21 bar, 72.3 km/h28.21 N/kN" in shown and "10.0" not in shown
+    assert "Conicity force6 kN0 N" in shown
+
+
 def test_residuals_of_the_fit(whole):
     """The file is exact: rms differences are round-off."""
     shown = whole.text.split("tyre.tir evaluated at the points of the rig")[1]

@@ -10,7 +10,7 @@ import numpy as np
 from ..reports.document import folded, table
 from ..reports.encoding import number
 from .figures.drawing import said
-from .points import levels
+from .points import levels, nominal
 
 if TYPE_CHECKING:
     from ..data.rig import Rig
@@ -30,37 +30,38 @@ MERITS = {("vertical", "radial_stiffness"): ("Radial stiffness", 1e-3, "N/mm"),
           **{("modes", f"first_frequency_{state}"): (f"First natural frequency, {state}", 1.0, "Hz")
              for state in ("free", "standing")}}
 STATES = ("load", "pressure", "speed")  # that tell the entries of a figure apart
+DIGITS = 6  # behind the point, in these units: what is smaller is round-off
 HEAD = ("figure of merit", "at", "value")
 
 
 def merits_of(rig: Rig) -> str:
     """A table of the figures at the nominal state, and one of all, folded. "": there are none."""
-    nominal, whole = [], []
+    usual_rows, whole = [], []
     for test, found in rig.figures.items():
         for name, entries in found.items():
             if not isinstance(entries, Sequence) or not all(isinstance(one, Mapping) for one in entries):
                 continue
             what, factor, unit = MERITS.get((test, name), (name.replace("_", " ").capitalize(), 1.0, "SI"))
-            rows = [(what, _at(one), f"{number(factor * one['value'])} {unit}") for one in entries if _is_number(one.get("value"))]
+            rows = [(what, _at(one), f"{number(round(factor * one['value'], DIGITS) + 0.0)} {unit}") for one in entries if _is_number(one.get("value"))]
             whole += rows
-            usual = _nominal(entries)
-            nominal += [row for one, row in zip(entries, rows) if all(one.get(key) == value for key, value in usual.items())]
+            usual = _nominal(rig, entries)
+            usual_rows += [row for one, row in zip(entries, rows) if all(one.get(key) == value for key, value in usual.items())]
     if not whole:
         return ""
-    shown = table(HEAD, nominal, "Figures of merit at the nominal load, pressure and speed")
+    shown = table(HEAD, usual_rows, "Figures of merit at the nominal load, pressure and speed")
     return shown + (folded(f"All {len(whole)} figures of merit", table(HEAD, whole, "Figures of merit"))
-                    if len(whole) > len(nominal) else "")
+                    if len(whole) > len(usual_rows) else "")
 
 
-def _nominal(entries: Sequence[Mapping[str, Any]]) -> dict[str, float]:
-    """The state in the middle, one setting after another among the entries that have the ones before."""
+def _nominal(rig: Rig, entries: Sequence[Mapping[str, Any]]) -> dict[str, float]:
+    """The state next to the nominal one, one setting after another among the entries that have the ones before."""
     state: dict[str, float] = {}
     for key in STATES:
         left = np.array([one[key] for one in entries if _is_number(one.get(key))
                          and all(one.get(other) == value for other, value in state.items())], dtype=float)
         if len(left):
             there = levels(left)
-            state[key] = float(there[(len(there) - 1) // 2])
+            state[key] = float(there[np.argmin(np.abs(there - nominal(rig, key, there)))])
     return state
 
 

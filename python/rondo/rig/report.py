@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import style
 from ..data.errors import Error
 from ..reports.document import Document, folded, note, paragraph, table, tiles
 from ..reports.encoding import escaped, number
@@ -50,7 +51,8 @@ def page(rig: Rig, against: Comparison | None = None) -> Document:
     document.section("summary", "Summary", _summary(rig))
     drawn: dict[str, str] = {}
     for one in figures_of(rig, against):
-        drawn[one.test] = drawn.get(one.test, "") + picture(one.figure, one.words)
+        is_wide = bool(one.figure.get_size_inches()[0] >= style.PAGE)
+        drawn[one.test] = drawn.get(one.test, "") + picture(one.figure, one.words, is_wide)
     for name, test in rig.tests.items():
         document.section(f"test-{name}", escaped(name.replace("-", " ").capitalize()), _test(test, drawn.get(name, "")))
     document.section("trends", "Trends of tyres", _trends(rig))
@@ -103,7 +105,7 @@ def _test(test: RigTest, drawn: str) -> str:
     head = [name for name, column in test.table.items() if name not in ("status", "reason") and _says_something(column)]
     rows = [[cell if isinstance(cell, str) else number(float(cell)) for cell in row]
             for row in zip(*(test.table[name].tolist() for name in head))]
-    return said + folded(f"Table of {_points(test)} points, SI units",
+    return said + folded(f"Table of {_points(test)} point{'s' if _points(test) != 1 else ''}, SI units",
                          table(head, rows, f"Points of the test {test.name}", ["number"] * len(head)))
 
 
