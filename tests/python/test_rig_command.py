@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import time
+import zipfile
 
 import numpy as np
 import pytest
@@ -116,6 +117,22 @@ def test_another_tyre_is_refused(done, tmp_path):
     case, settings = files(tmp_path, WHEEL.replace("5.0e6", "6.0e6"))
     said = rig(case, "--rig", settings, "--quick", "-o", done, code=2).stderr
     assert "holds a rig of another case" in said and "--overwrite" in said
+
+
+def test_measurements_are_read_first(tmp_path):
+    case, settings = files(tmp_path)
+    (tmp_path / "forces.csv").write_text("speed,colour\n1,2\n")
+    said = rig(case, "--rig", settings, "--against", tmp_path / "forces.csv", "-o", tmp_path / "rig", code=2).stderr
+    assert "forces.csv" in said and "SLIPANGL" in said
+    assert not (tmp_path / "rig").exists()
+
+
+def test_measurements_and_fmu(done):
+    """Its own forces do not differ from it."""
+    rig(done.parent / "wheel.toml", "--rig", done.parent / "rig.toml", "--quick", "--tests", "vertical", "--against",
+        done / "lateral.tdx", "--fmu", "-o", done)
+    assert zipfile.is_zipfile(done / "tyre.fmu")
+    assert "lateral.tdx" in (done / "report.html").read_text()
 
 
 def test_dry_run_and_defaults(tmp_path):

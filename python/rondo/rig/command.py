@@ -16,6 +16,7 @@ from ..studies.jobs import INTERRUPTED, NUMERICAL, Job, Stop, processors, run_jo
 from ..studies.lock import Lock
 from ..studies.program import Program, find_program
 from ..studies.progress import Progress, readable_time
+from .against_reading import read_measured
 from .blocks import RESULTS, Bench, Block
 from .defaults import nominal, with_defaults
 from .findings import find
@@ -68,6 +69,8 @@ def defaults_text(request: Request) -> str:
 def run_rig(request: Request) -> int:
     """What is complete in the directory, of the same program and the same files, is kept: a rig that was killed goes on
     where it was. Returns the exit code."""
+    if request.against is not None:
+        read_measured(request.against)  # what is wrong with it is told now, not at the end
     try:
         request.directory.mkdir(parents=True, exist_ok=True)
     except OSError as reason:

@@ -79,7 +79,7 @@ def _of_tests(top: Values, quick: bool, radius: float) -> Settings:
             **of_loads, "cambers_deg": top["cambers_deg"],
             "slip_angles_deg": [-8.0, -3.0, -1.0, 0.0, 1.0, 3.0, 8.0] if quick else
             [-12.0, -8.0, -5.0, -3.0, -2.0, -1.0, 0.0, 1.0, 2.0, 3.0, 5.0, 8.0, 12.0],
-            "few_slip_angles_deg": [-4.0, 0.0, 4.0] if quick else [-8.0, -4.0, -1.0, 0.0, 1.0, 4.0, 8.0]},
+            "few_slip_angles_deg": [-4.0, -1.0, 0.0, 1.0, 4.0] if quick else [-8.0, -4.0, -1.0, 0.0, 1.0, 4.0, 8.0]},
         "combined": {"loads": [load] if quick else [loads[0], loads[-1]],
                      "slip_angles_deg": [-4.0, 2.0] if quick else [-5.0, -2.0, 2.0, 5.0],
                      "slip_ratios": [-0.06, 0.02] if quick else [-0.14, -0.07, -0.03, 0.03, 0.07]},

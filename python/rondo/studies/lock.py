@@ -8,10 +8,10 @@ import pathlib
 import time
 from types import TracebackType
 
-from ..data.errors import Error
+from ..data.errors import FileError
 
 
-class FilesError(Error):
+class FilesError(FileError):
     """Of files of a study: exit code 4."""
 
 

@@ -16,8 +16,8 @@ from typing import Any
 
 from ..data.errors import Error
 from ..data.files import read_json
-from .lock import FilesError, Lock
 from .jobs import FILES, INTERRUPTED, NUMERICAL, Job, Stop, processors, run_jobs
+from .lock import FilesError, Lock
 from .paper_kept import has_ended, identity, pod_is_there, remove_unfinished, run_is_there
 from .paper_plan import Plan, PlannedPod, PlannedRun, read_plan, study_folder
 from .paper_table import Row, make_table, table_text
