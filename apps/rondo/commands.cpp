@@ -10,6 +10,7 @@
 #include "default_directory.hpp"
 #include "documents/documents.hpp"
 #include "progress.hpp"
+#include "report/axes_option.hpp"
 #include "rondo/analysis/registry.hpp"
 #include "rondo/analysis/run.hpp"
 #include "rondo/core/bytes.hpp"
@@ -121,6 +122,7 @@ int run(RunArguments arguments, Telling& tell) {
   complete(arguments);
   study::RunOptions& options = arguments.options;
   const study::Case c = study::read_case(arguments.case_file, arguments.settings);
+  demand_axes(c, arguments.axes);
   options.warn = [](const std::string& text) { spdlog::warn(text); };
   options.stop = &stop_requested();
   options.before_loop = catch_stop_signals;
@@ -133,7 +135,8 @@ int run(RunArguments arguments, Telling& tell) {
     tell.result = run_document(report, options.directory);
   else if (arguments.realtime_factor)
     print_realtime_factor(report);
-  return finish(report, options.directory, tell);
+  return write_axes(options.directory, arguments.axes, finish(report, options.directory, tell),
+                    tell);
 }
 
 int check(const RunArguments& arguments, Telling& tell) {

@@ -19,6 +19,7 @@ struct CaseArguments {
 struct RunArguments : CaseArguments {
   study::RunOptions options;  ///< default directory: name of the case, in the working folder
   bool realtime_factor = false;
+  std::string axes;  ///< of a further table of forces; empty: none
 };
 
 struct ModesArguments : CaseArguments {
@@ -45,6 +46,7 @@ struct SweepArguments {
   bool dry_run = false;
   std::string shard;  ///< "i/n": the part to run; empty: all of it
   bool collect = false;
+  std::string axes;  ///< of a further table of forces; empty: none
 };
 
 int run(RunArguments arguments, Telling& tell);

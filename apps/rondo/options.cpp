@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <variant>
 
+#include "report/axes_option.hpp"
 #include "rondo/core/error.hpp"
 
 namespace rondo::app {
@@ -93,6 +94,7 @@ CLI::App* add_run(CLI::App& program, RunArguments& arguments, Telling& tell) {
   accept_gone(*run, "--snapshots", 1, "snapshots of a reduced wheel are fields");
   run->add_flag("--realtime-factor", arguments.realtime_factor,
                 "Prints the ratio of simulated time to the time that the steps took");
+  add_axes(*run, arguments.axes);
   add_telling(*run, tell, "Prints warnings and errors only");
   run->footer(
       "Example:\n  rondo run cases/ledge-smooth.toml -o results/mu06 --set ground.friction=0.6\n"
@@ -239,6 +241,7 @@ CLI::App* add_sweep(CLI::App& program, SweepArguments& arguments, Telling& tell)
                     "Part of the study that is made, i/n, for jobs that share only the directory");
   sweep->add_flag("--collect", arguments.collect,
                   "Writes the tables of all shards, the same as without --shard");
+  add_axes(*sweep, arguments.axes);
   add_telling(*sweep, tell, "Prints warnings and errors only");
   sweep->footer(
       "Example:\n  rondo sweep cases/studies/traction.toml -o results/traction\n"

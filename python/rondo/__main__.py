@@ -13,6 +13,8 @@ from typing import NoReturn
 from rondo import interrupts, open_modes, open_paper, open_sweep, open_validation
 from rondo import open as open_run
 from rondo.command_help import CommandParser, output_path
+from rondo.data.axes import NAMES
+from rondo.data.axes_table import in_words, table_of_run, table_of_sweep, write_axes_table
 from rondo.data.errors import Error, FileError, UnfinishedRunError
 from rondo.data.heat import Heat
 from rondo.data.names import FRAME, OLDER_FRAMES
@@ -20,7 +22,12 @@ from rondo.data.run import Run
 from rondo.needs import missing
 
 WRONG, FILES = 2, 4  # exit codes of wrong input and of files, as the program's
-NO_PICTURES = ("paper", "validate", "means", "converge")  # commands that need not load what draws
+NO_PICTURES = ("paper", "validate", "means", "converge", "axes")  # commands that need not load what draws
+ABOUT_AXES = {  # what --axes of a command does
+    "axes": "Axes and signs of the table",
+    "means": "Prints forces, moments and slips of a wheel in three dimensions in these axes",
+    "figures": "Of a wheel in three dimensions in time: draws forces-AXES as well",
+    "tyre": "Axes and signs of the curves"}
 BROKEN_PIPE = 141  # as a shell has it of a program that is killed by SIGPIPE
 
 
@@ -204,6 +211,19 @@ def _parser() -> argparse.ArgumentParser:
                              help="Of a sweep: draws each figure over these two parameters; may be repeated")
         command.add_argument("--curves", nargs=2, action="append", default=[], metavar=("X", "BY"),
                              help="Of a sweep: draws each figure over X, a curve for each value of BY; may be repeated")
+    axes = add(
+        "axes", "Writes the forces of a run or a sweep in the axes of ISO 8855, TYDEX, SAE or Pacejka",
+        epilog="The table history-AXES.csv, or results-AXES.csv of a sweep, has the units in its names; a .json "
+               "beside it says what its axes are. Wheels in three dimensions that roll. docs/conventions.md.")
+    axes.add_argument("directory", type=pathlib.Path, help="Directory of `rondo run` or `rondo sweep`")
+    axes.add_argument("-o", "--output", type=output_path, metavar="FILE",
+                      help="File that ends in .csv; default DIRECTORY/history-AXES.csv, of a sweep results-AXES.csv")
+    axes.add_argument("--effective-radius", type=float, metavar="METRES",
+                      help="Radius of the slip ratio, V/w of free rolling; default: the outer radius of the undeformed "
+                           "wheel")
+    for command in axes, means, figures, tyre:
+        command.add_argument("--axes", required=command is axes, metavar="AXES",
+                             help=f"{ABOUT_AXES[command.prog.split()[-1]]}: {' | '.join(NAMES)}")
     psd = add(
         "psd", "Draws the power spectral density of a column of history.csv, and writes it as CSV",
         epilog="Welch's method: segments that overlap by half, without their means, with Hann windows; "
@@ -220,7 +240,7 @@ def _parser() -> argparse.ArgumentParser:
                              help="First time used")
         command.add_argument("--to", dest="to_time", type=float, metavar="SECONDS",
                              help="Last time used")
-    for command in figures, film, wheel, footprint, traction, tyre, sweep, means, converge, psd:
+    for command in figures, film, wheel, footprint, traction, tyre, sweep, means, converge, psd, axes:
         command.add_argument("--unfinished", action="store_true",
                              help="Accepts results of a run that has not ended, was interrupted or has failed")
     return parser
@@ -275,9 +295,14 @@ def _folder(options: argparse.Namespace) -> pathlib.Path:
 def _figures(options: argparse.Namespace) -> None:
     folder = _folder(options)
     if (options.directory / "sweep.json").is_file():
+        if options.axes:
+            raise Error(f"--axes: {options.directory} holds a sweep: rondo axes writes its forces in these axes, and "
+                        "rondo tyre --axes draws its curves")
         return _sweep(options)
     if options.figure or options.map or options.curves:
         raise Error(f"--figure, --map and --curves: {options.directory} holds no sweep; leave them out")
+    if options.axes and not (options.directory / "run.json").is_file():
+        raise Error(f"--axes: {options.directory} holds no run, whose forces it draws; leave it out")
     if (options.directory / "paper.json").is_file():
         from rondo.figures import draw_paper
         written = draw_paper(open_paper(options.directory, options.unfinished), folder)
@@ -286,7 +311,12 @@ def _figures(options: argparse.Namespace) -> None:
         written = draw_modes(open_modes(options.directory), folder)
     else:
         from rondo.figures.run_figures import draw_run
-        written = draw_run(open_run(options.directory, options.unfinished), folder)
+        run = open_run(options.directory, options.unfinished)
+        written = []
+        if options.axes:  # first, as it may refuse the run
+            from rondo.figures.axes_figures import draw_in_axes
+            written = draw_in_axes(run, folder, options.axes)
+        written += draw_run(run, folder)
     for path in written:
         print(path)
 
@@ -316,9 +346,30 @@ def _mean_forces(run: Run, from_time: float | None, to_time: float | None) -> st
     return f"{run.directory}: force_x {force_x:.5g} N/m, force_y {force_y:.6g} N/m"
 
 
+def _means_in_axes(run: Run, axes: str, from_time: float | None, to_time: float | None) -> str:
+    """Of the rows in these axes, of which moments and slip ratios are no linear functions."""
+    found = run.history.in_axes(axes)
+    chosen, weights = run.history.weights(from_time, to_time)
+    return f"{run.directory}: {in_words(found.mean(weights, chosen))}"
+
+
+def _axes(options: argparse.Namespace) -> None:
+    if (options.directory / "sweep.json").is_file():
+        table = table_of_sweep(open_sweep(options.directory, options.unfinished), options.axes, options.effective_radius)
+    else:
+        table = table_of_run(open_run(options.directory, options.unfinished), options.axes, options.effective_radius)
+    written = write_axes_table(table, options.output)
+    print(f"{options.directory}: {table.said}")
+    for path in written:
+        print(path)
+
+
 def _means(options: argparse.Namespace) -> None:
     for directory in options.directory:
         run = open_run(directory, options.unfinished)
+        if options.axes:
+            print(_means_in_axes(run, options.axes, options.from_time, options.to_time))
+            continue
         print(_mean_forces(run, options.from_time, options.to_time))
 
 
@@ -391,7 +442,7 @@ def _tyre(options: argparse.Namespace) -> None:
     from rondo.figures.tyre_figures import draw_tyre
 
     first, *more = (open_sweep(path, options.unfinished) for path in options.directory)
-    for path in draw_tyre(first, _folder(options), more):
+    for path in draw_tyre(first, _folder(options), more, options.axes):
         print(path)
 
 
@@ -439,7 +490,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     code: int | None = 0
     commands: dict[str, Callable[[argparse.Namespace], int | None]] = {
         "paper": _paper, "rig": _rig, "figures": _figures, "animate": _animate, "report": _report, "means": _means,
-        "psd": _psd,
+        "psd": _psd, "axes": _axes,
         "wheel": _wheel, "footprint": _footprint, "traction": _traction, "tyre": _tyre,
         "campbell": _campbell, "sweep": _sweep, "converge": _converge, "validate": _validate,
         "validation": _validation}

@@ -4,6 +4,8 @@ from .data.axes import (
     CENTER,
     CONTACT,
     GROUND,
+    NAMES,
+    QUANTITIES,
     SLIP_RATIOS,
     SYSTEMS,
     Quantities,
@@ -17,5 +19,5 @@ from .data.axes import (
     system,
 )
 
-__all__ = ["CENTER", "CONTACT", "GROUND", "SLIP_RATIOS", "SYSTEMS", "Quantities", "System", "convert",
+__all__ = ["CENTER", "CONTACT", "GROUND", "NAMES", "QUANTITIES", "SLIP_RATIOS", "SYSTEMS", "Quantities", "System", "convert",
            "convert_slip_ratio", "directions", "origin", "own", "slip_ratio", "system"]

@@ -42,7 +42,7 @@ def _entry(action: argparse.Action) -> str:
     if action.nargs != 0:
         head += f" {KINDS.get(action.type, 'INT')}"
         head += " ..." if action.nargs == "+" else f" x {action.nargs}" if action.nargs else ""
-        head += "" if action.option_strings else " REQUIRED"
+        head += " REQUIRED" if action.required or not action.option_strings else ""
     meaning = "Print this help message and exit" if action.dest == "help" else action.help or ""
     if "%(" in meaning:
         meaning %= vars(action)

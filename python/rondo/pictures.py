@@ -210,12 +210,12 @@ def _carpet(sweep: Sweep, by: str = "analysis.load", ax: Axes | None = None) -> 
     return plot_carpet(sweep, by, ax)
 
 
-def _tyre_curves(sweep: Sweep, *more: Sweep, by: str | None = None, names: Sequence[str] = ()
-                 ) -> Figure:
+def _tyre_curves(sweep: Sweep, *more: Sweep, by: str | None = None, names: Sequence[str] = (),
+                 axes: str | None = None) -> Figure:
     """Lateral force and aligning moment over the slip angle; see
     rondo.plots.solid.tyre.plot_tyre_curves."""
     from .plots.solid.tyre import plot_tyre_curves
-    return plot_tyre_curves(sweep, *more, by=by, names=names)
+    return plot_tyre_curves(sweep, *more, by=by, names=names, axes=axes)
 
 
 def _friction_ellipse(sweep: Sweep, ax: Axes | None = None) -> Axes:

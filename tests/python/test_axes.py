@@ -255,7 +255,8 @@ def test_a_state_in_memory(tmp_path):
     words = [word for key, value in settings.items() for word in ("--set", f"{key}={value}")]
     ok("run", tmp_path / "case.toml", "-o", tmp_path / "run", *words)
     for system in axes.SYSTEMS:
-        there = rondo.open(tmp_path / "run").history.in_axes(system, 0.298)
-        here = rondo.steady_rolling(tmp_path / "case.toml", settings).history.in_axes(system, 0.298)
+        radius = None if system == "rondo" else 0.298  # rondo's slip ratio has the outer one
+        there = rondo.open(tmp_path / "run").history.in_axes(system, radius)
+        here = rondo.steady_rolling(tmp_path / "case.toml", settings).history.in_axes(system, radius)
         for key in ALL:
             np.testing.assert_allclose(getattr(here, key), getattr(there, key), rtol=1e-12, atol=1e-12, err_msg=f"{system} {key}")

@@ -18,7 +18,7 @@ from test_errors import says
 
 import rondo
 from rondo import style
-from rondo.data import solid, tyre
+from rondo.data import solid, sweep_table, tyre
 from rondo.plots.solid import footprint, surface, view
 from rondo.plots.solid.tyre import plot_friction_ellipse, plot_tyre_curves
 
@@ -363,7 +363,7 @@ def test_curves_need_a_slip_angle_and_one_more(maps):
 
 def test_a_plane_sweep_is_no_tyre(grid):
     says(rondo.Error, grid.plot_tyre_curves, words=("motion.slip_angle does not vary",))
-    says(rondo.Error, tyre.column_of, grid, "force_lateral", words=("no force_lateral",))
+    says(rondo.Error, sweep_table.column_of, grid, "force_lateral", words=("no force_lateral",))
 
 
 def test_the_friction_ellipse(maps):

@@ -19,6 +19,8 @@ constexpr PythonCommand commands[] = {
     {"figures", "Draws the figures of a run, a sweep, modes or a study of the paper"},
     {"animate", "Makes a film of a run"},
     {"means", "Prints the mean forces of the ground on the body"},
+    {"axes",
+     "Writes the forces of a run or a sweep in the axes of ISO 8855, TYDEX, SAE or Pacejka"},
     {"psd", "Draws the power spectral density of a column of history.csv, and writes it as CSV"},
     {"converge", "Prints how the figures of a sweep converge with its mesh or its step"},
     {"wheel", "Draws height, speeds, slip, forces, torques and energies of a rim that forces move"},

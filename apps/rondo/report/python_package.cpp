@@ -13,6 +13,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 
 #include "rondo/core/error.hpp"
 
@@ -59,23 +60,48 @@ std::vector<fs::path> of_installation(const fs::path& own) {
   return found;
 }
 
-/// Whether the process ends with exit code 0; its output is discarded.
-bool succeeds(const std::string& program, const char* code) {
+std::vector<char*> pointers_to(std::vector<std::string>& words) {
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+/// Exit code of a program; -1: it could not be started, or a signal ended it.
+/// @param discarded  streams that are /dev/null to it
+int exit_code(std::vector<std::string> words, std::initializer_list<int> discarded) {
   posix_spawn_file_actions_t quiet;
   posix_spawn_file_actions_init(&quiet);
-  for (const int stream : {0, 1, 2})
+  for (const int stream : discarded)
     posix_spawn_file_actions_addopen(&quiet, stream, "/dev/null", stream == 0 ? O_RDONLY : O_WRONLY,
                                      0);
-  std::string first = program, flag = "-c", text = code;
-  char* const arguments[] = {first.data(), flag.data(), text.data(), nullptr};
   pid_t child = 0;
-  const int error = posix_spawnp(&child, program.c_str(), &quiet, nullptr, arguments, environ);
+  const int error = posix_spawnp(&child, words.front().c_str(), &quiet, nullptr,
+                                 pointers_to(words).data(), environ);
   posix_spawn_file_actions_destroy(&quiet);
-  if (error != 0) return false;
+  if (error != 0) return -1;
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return false;
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (errno != EINTR) return -1;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+bool has_needed(const std::string& python) {
+  return exit_code({python, "-c", needed}, {0, 1, 2}) == 0;
+}
+
+/// `python -m rondo arguments`, and the environment in which it finds the package and this program.
+std::vector<std::string> prepared(const std::vector<std::string>& arguments) {
+  const std::string package = find_python_package(), python = find_python(package);
+  const char* before = std::getenv("PYTHONPATH");
+  const std::string path = before != nullptr && *before != '\0' ? package + ":" + before : package;
+  setenv("PYTHONPATH", path.c_str(), 1);
+  setenv("RONDO", own_program().c_str(), 1);  // the program that the package calls
+  // -P: no file in the working folder is imported as a module.
+  std::vector<std::string> words{python, "-P", "-m", "rondo"};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::fflush(stdout);
+  return words;
 }
 
 }  // namespace
@@ -106,7 +132,7 @@ std::string find_python(const std::string& package) {
     candidates.insert(candidates.end(), {"/usr/bin/python3", "python3"});
   }
   for (const std::string& python : candidates)
-    if (succeeds(python, needed)) return python;
+    if (has_needed(python)) return python;
   std::string tried;
   for (const std::string& python : candidates) tried += (tried.empty() ? "" : ", ") + python;
   throw FileError(tried,
@@ -116,20 +142,16 @@ std::string find_python(const std::string& package) {
 }
 
 void become_python(const std::vector<std::string>& arguments) {
-  const std::string package = find_python_package(), python = find_python(package);
-  const char* before = std::getenv("PYTHONPATH");
-  const std::string path = before != nullptr && *before != '\0' ? package + ":" + before : package;
-  setenv("PYTHONPATH", path.c_str(), 1);
-  setenv("RONDO", own_program().c_str(), 1);  // the program that the package calls
-  // -P: no file in the working folder is imported as a module.
-  std::vector<std::string> words{python, "-P", "-m", "rondo"};
-  words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  std::fflush(stdout);
-  execvp(python.c_str(), pointers.data());
-  throw FileError(python, std::string("cannot be started: ") + std::strerror(errno));
+  std::vector<std::string> words = prepared(arguments);
+  execvp(words.front().c_str(), pointers_to(words).data());
+  throw FileError(words.front(), std::string("cannot be started: ") + std::strerror(errno));
+}
+
+int run_python(const std::vector<std::string>& arguments, bool silent) {
+  const std::vector<std::string> words = prepared(arguments);
+  const int code = silent ? exit_code(words, {1}) : exit_code(words, {});
+  if (code < 0) throw FileError(words.front(), "was ended by a signal, or cannot be started");
+  return code;
 }
 
 }  // namespace rondo::app

@@ -18,4 +18,8 @@ namespace rondo::app {
 /// @throws FileError: it cannot be started
 [[noreturn]] void become_python(const std::vector<std::string>& arguments);
 
+/// Runs `python -m rondo arguments` and waits for it. @param silent  what it prints is discarded,
+/// but not its errors. @return its exit code. @throws FileError: likewise
+[[nodiscard]] int run_python(const std::vector<std::string>& arguments, bool silent);
+
 }  // namespace rondo::app

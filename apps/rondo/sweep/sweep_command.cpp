@@ -16,6 +16,7 @@
 #include "default_directory.hpp"
 #include "documents/documents.hpp"
 #include "progress.hpp"
+#include "report/axes_option.hpp"
 #include "rondo/analysis/build/memory.hpp"
 #include "rondo/core/bytes.hpp"
 #include "rondo/core/error.hpp"
@@ -140,7 +141,7 @@ int run(SweepArguments& arguments, study::Team& team, Telling& tell) {
     const study::CollectReport report = study::collect_shards(request, team);
     progress.reset();
     if (tell.json) keep_collected(tell, report, request.directory);
-    return finish_collected(report, request);
+    return write_axes(request.directory, arguments.axes, finish_collected(report, request), tell);
   }
   request.begin = [&](const study::PlannedSweep& plan, int workers) {
     progress.reset();
@@ -155,7 +156,8 @@ int run(SweepArguments& arguments, study::Team& team, Telling& tell) {
   progress.reset();
   if (tell.json) keep(tell, report, request.directory);
   if (!team.leads()) return exit_done;  // mpirun returns the leader's code
-  return shard ? finish_shard(report, *shard, request) : finish(report, request.directory);
+  if (shard) return finish_shard(report, *shard, request);
+  return write_axes(request.directory, arguments.axes, finish(report, request.directory), tell);
 }
 
 /// An error on all ranks is reported by the leader alone, as for any command. An error on some
@@ -182,6 +184,7 @@ int sweep(SweepArguments arguments, Telling& tell) {
   if (tell.quiet) spdlog::set_level(spdlog::level::warn);
   if (!is_started_by_mpi()) {
     refuse_tasks_without_mpi();
+    demand_axes(arguments);
     arguments.request.before_files = catch_stop_signals;
     const int workers = arguments.jobs > 0 ? arguments.jobs : allowed_processors();
     study::LocalTeam team(workers, &stop_requested());
@@ -190,6 +193,9 @@ int sweep(SweepArguments arguments, Telling& tell) {
   if (arguments.collect)
     throw InputError(Fault{"--collect", 0, 0, "", "", "is done by one process",
                            "rondo sweep STUDY --collect, without mpirun or srun"});
+  if (!arguments.axes.empty())
+    throw request_error("--axes", arguments.axes, "is done by one process",
+                        "rondo axes DIRECTORY, after the sweep and without mpirun or srun");
   if (arguments.jobs > 0)
     throw InputError(Fault{"--jobs", 0, 0, "", "", "mpirun decides how many runs go on at once",
                            "leave --jobs out"});

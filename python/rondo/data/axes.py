@@ -57,13 +57,14 @@ _ROWS = (
            "down", CONTACT, False, True, -1, -1, 1, "travel"))
 SYSTEMS: Mapping[str, System] = {row.name: row for row in _ROWS}
 _OTHER_NAMES = {"tydex-w": "iso-w"}
+NAMES = (*SYSTEMS, *_OTHER_NAMES)  # what --axes takes
 
 
 def system(name: str) -> System:
     """@raise InputError: there is no such system."""
     found = SYSTEMS.get(_OTHER_NAMES.get(name, name))
     if found is None:
-        raise InputError(f"axes {name!r}: no such system (allowed: {', '.join((*SYSTEMS, *_OTHER_NAMES))})")
+        raise InputError(f"axes {name!r}: no such system (allowed: {', '.join(NAMES)})")
     return found
 
 
@@ -86,6 +87,12 @@ class Quantities:
     height: Array      # m, of the wheel center above the ground, in all systems
     time: Array | None = None  # s, end of the intervals of a history
 
+    def mean(self, weights: ArrayLike, rows: ArrayLike | None = None) -> Quantities:
+        """Means of all quantities over rows, those of the mask or all; a weight for each."""
+        chosen = slice(None) if rows is None else np.asarray(rows, dtype=bool)
+        means = {name: np.average(getattr(self, name)[chosen], weights=weights) for name in QUANTITIES}
+        return Quantities(self.system, **{name: np.asarray(value) for name, value in means.items()})
+
     @property
     def forces(self) -> Array:
         """(..., 3) N."""
@@ -95,6 +102,21 @@ class Quantities:
     def moments(self) -> Array:
         """(..., 3) N m."""
         return np.stack([self.Mx, self.My, self.Mz], axis=-1)
+
+
+def sense_in(name: str, key: str) -> int:
+    """-1 where a key of the case, `motion.camber`, `motion.slip_angle` or `motion.turn_slip`, has the other
+    sign in these axes than in the case; else 1, also of other keys."""
+    quantity = key.removeprefix("motion.")
+    if quantity not in ("camber", "slip_angle", "turn_slip"):
+        return 1
+    return int(getattr(system(name), quantity) * getattr(SYSTEMS["rondo"], quantity))
+
+
+QUANTITIES = {  # their units, and the ends of their names in tables
+    "Fx": ("N", "_N"), "Fy": ("N", "_N"), "Fz": ("N", "_N"), "Mx": ("N·m", "_Nm"), "My": ("N·m", "_Nm"),
+    "Mz": ("N·m", "_Nm"), "slip_angle": ("rad", "_rad"), "camber": ("rad", "_rad"), "slip_ratio": ("1", ""),
+    "turn_slip": ("1/m", "_per_m"), "height": ("m", "_m")}
 
 
 def directions(name: str, camber: ArrayLike) -> Array:
@@ -138,8 +160,8 @@ def convert(given: Quantities, to: str, effective_radius: ArrayLike | None = Non
         force[..., 2] *= -1.0
     slip = _converted_slip(given.slip_ratio, source.slip_ratio, target.slip_ratio, radius, effective_radius)
     return Quantities(target.name, force[..., 0], force[..., 1], force[..., 2], moment[..., 0], moment[..., 1], moment[..., 2],
-                      given.slip_angle * (source.slip_angle * target.slip_angle), camber * target.camber, slip,
-                      given.turn_slip * (source.turn_slip * target.turn_slip), given.height, given.time)
+                      given.slip_angle * (source.slip_angle * target.slip_angle) + 0.0, camber * target.camber + 0.0, slip,
+                      given.turn_slip * (source.turn_slip * target.turn_slip) + 0.0, given.height, given.time)  # no -0
 
 
 def _to_own(given: Quantities, camber: Array) -> tuple[Array, Array]:
@@ -190,13 +212,25 @@ def _converted_slip(value: Array, given: str, wanted: str, radius: ArrayLike | N
     if (radius is None) != (effective is None):
         raise InputError("a slip ratio changes its radius with both `radius` and `effective_radius`, and one of them "
                          "is missing (allowed: both, or neither)")
-    if radius is None or effective is None or given == wanted:
+    if effective is not None:
+        _demand_effective(effective, given, wanted)
+    if radius is None or effective is None:
         return convert_slip_ratio(value, given, wanted)
     share = np.asarray(effective, float) / np.asarray(radius, float)  # of the new radius, from "larger"
     if given == "travel":
         share = 1.0 / share
     travel = convert_slip_ratio(value, given, "travel")
     return convert_slip_ratio((1.0 + travel) * share - 1.0, "travel", wanted)
+
+
+def _demand_effective(radius: ArrayLike, given: str, wanted: str) -> None:
+    """An error of what is no effective radius, or replaces no outer radius."""
+    values = np.asarray(radius, float)
+    if not np.all(np.isfinite(values) & (values > 0.0)):
+        raise InputError(f"effective_radius {radius!r}: is no radius (allowed: above 0 m, V / w of free rolling)")
+    if given == wanted:
+        raise InputError(f"effective_radius {radius!r}: the slip ratio has the same radius in both systems (allowed: no "
+                         "effective radius, or one system with the outer radius, rondo, and one with the effective one)")
 
 
 # Columns

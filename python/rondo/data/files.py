@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import contextlib
+import csv
 import json
 import os
 import pathlib
 import re
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 import h5py
@@ -87,6 +88,19 @@ def read_table(path: pathlib.Path) -> dict[str, np.ndarray]:
         raise Error(f"{path}: damaged: {len(names)} columns are named, "
                     f"but there are {values.shape[1]}")
     return dict(zip(names, values.T.copy()))
+
+
+def write_table(path: pathlib.Path, columns: Mapping[str, np.ndarray]) -> pathlib.Path:
+    """A CSV file of these columns."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with open(path, "w", newline="") as file:
+            writer = csv.writer(file, lineterminator="\n")
+            writer.writerow(columns)
+            writer.writerows(zip(*(values.tolist() for values in columns.values())))
+    except OSError as reason:
+        raise FileError(f"{path}: cannot be written: {reason.strerror}; choose another -o") from None
+    return path
 
 
 def _readable(path: pathlib.Path) -> h5py.File:

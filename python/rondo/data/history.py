@@ -146,14 +146,21 @@ class History(Mapping[str, np.ndarray]):
              to_time: float | None = None) -> float:
         """Mean over time of a column, in its unit: rows weighted by their intervals, of which
         forces and torque are the means. Of steady rolling over the places of a sector's pass."""
+        chosen, weights = self.weights(from_time, to_time)
+        self.need_ground(name)
+        return float(np.average(self[name][chosen], weights=weights))
+
+    def weights(self, from_time: float | None = None,
+                to_time: float | None = None) -> tuple[np.ndarray, np.ndarray]:
+        """Of means over time: the mask (rows,) of window(), and the weights of the rows chosen by it. An
+        error of what has no course in time."""
         if self.crush:
             raise Error(f"{self.path}: a crush has no means over time")
         self.need_time("means over time")
-        self.need_ground(name)
         chosen = self.window(from_time, to_time)
         time = self[TIME]
         spans = np.ones(len(time)) if self.instants else np.diff(time, prepend=0.0)
-        return float(np.average(self[name][chosen], weights=spans[chosen]))
+        return chosen, spans[chosen]
 
     def in_axes(self, system: str, effective_radius: float | None = None) -> Quantities:
         """Forces and moments of the ground on a wheel in three dimensions, slip angle, camber and slip ratio

@@ -63,7 +63,7 @@ class RollingWheel:
 def rolling_wheel(case: Mapping[str, Any], radius: float) -> RollingWheel:
     """Of the case of a wheel in three dimensions; radius: its outer radius [m]."""
     motion = case["motion"]
-    backwards = any(_below_zero(motion.get(key, 0.0)) for key in ("speed", "angular_velocity"))
+    backwards = any(is_below_zero(motion.get(key, 0.0)) for key in ("speed", "angular_velocity"))
     return RollingWheel(float(motion.get("camber", 0.0)), float(motion.get("turn_slip", 0.0)), radius, backwards)
 
 
@@ -74,6 +74,6 @@ def outer_radius_of(case: Mapping[str, Any], mesh: Mesh) -> float:
     return float(np.linalg.norm(mesh.coordinates[:, :2], axis=1).max())
 
 
-def _below_zero(value: Any) -> bool:
+def is_below_zero(value: Any) -> bool:
     """Of a number, or of a table over time at any time."""
     return any(row[1] < 0 for row in value) if isinstance(value, list) else float(value) < 0

@@ -11,12 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .axes import Quantities
 from .errors import STATUS, Error, UnfinishedRunError, unknown
 from .files import check_format, read_json, read_table, require, some
 from .history import units_of
 from .html import sweep_html
 from .names import find_figure
 from .run import Run, open_run
+from .sweep_axes import sweep_in_axes
 from .sweep_table import read_members
 from .tables import frame_of
 
@@ -246,6 +248,13 @@ class Sweep:
                         f"is expected; this is of shape {column.shape}")
         return Sweep(self.directory, self.info, self.parameters, {**self._columns, name: column},
                      {**self.units, name: unit})
+
+    def in_axes(self, system: str, effective_radius: float | None = None) -> Quantities:
+        """Forces and moments of the ground on wheels in three dimensions, slip angle, camber and slip ratio
+        as arrays (r,) in the axes and signs of a system, as of History.in_axes(); NaN of members without
+        results. Of motions in time they are made of the means, with the mean height of the center.
+        An error of other bodies, of crushes, and of members that roll backwards."""
+        return sweep_in_axes(self, system, effective_radius)
 
     def run_directory(self, number: int) -> pathlib.Path:
         """Where the results of a member are; `number` as in the column "run", from 1."""

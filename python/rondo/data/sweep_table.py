@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""results.csv of a sweep: a row for each member."""
+"""results.csv of a sweep: a row for each member. A Sweep is Any here: its module imports this one."""
 from __future__ import annotations
 
 import csv
 import pathlib
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .errors import Error
+from .names import find_figure
 from .plain_files import text_of
 
 
@@ -65,3 +68,12 @@ def _numbers_of_runs(path: pathlib.Path, numbers: np.ndarray) -> np.ndarray:
     if np.any(np.diff(numbers, prepend=0.0) <= 0) or np.any(numbers != np.floor(numbers)):
         raise Error(f"{path}: damaged: runs are numbered 1, 2, ... in order")
     return numbers.astype(int)
+
+
+def column_of(sweep: Any, figure: str) -> NDArray[np.float64]:
+    """(members,) a figure, of means over time as of steady rolling; NaN where there is none."""
+    found = find_figure(figure, sweep)
+    if found is None:
+        raise Error(f"{sweep.directory}: no {figure} among its figures: it is no sweep of a wheel in "
+                    f"three dimensions that touches the ground; there are: {', '.join(sweep.figures)}")
+    return np.where(sweep.done, np.asarray(sweep[found], dtype=float), np.nan)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import Error
-from .names import find_figure
+from .sweep_table import column_of
 
 if TYPE_CHECKING:
     from .sweep import Sweep
@@ -24,15 +24,6 @@ LATERAL, ALIGNING, ALONG, LOAD, SLIP = ("force_lateral", "moment_aligning", "for
 LOADS = {"rim.force_y": "analysis.load"}  # what is the load too, with the other sign
 SAME = 1e-9  # relative: values of a parameter that are one
 NAMES = {"dynamic": "transient", "steady-rolling": "steady"}  # of analyses, in figures
-
-
-def column_of(sweep: Sweep, figure: str) -> Array:
-    """(members,) a figure, of means over time as of steady rolling; NaN where there is none."""
-    found = find_figure(figure, sweep)
-    if found is None:
-        raise Error(f"{sweep.directory}: no {figure} among its figures: it is no sweep of a wheel in "
-                    f"three dimensions that touches the ground; there are: {', '.join(sweep.figures)}")
-    return np.where(sweep.done, np.asarray(sweep[found], dtype=float), np.nan)
 
 
 def name_of_parameter(key: str) -> str:

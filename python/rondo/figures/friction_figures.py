@@ -2,15 +2,13 @@
 """Wear and flash temperature of a run: what is found in words, and files of it."""
 from __future__ import annotations
 
-import csv
 import pathlib
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .. import style
-from ..data.errors import FileError
+from ..data.files import write_table
 from ..data.friction import Wear
 from ..data.heat import FlashTemperature, Heat
 from ..plots.friction import draw_flash, plot_wear
@@ -59,16 +57,3 @@ def flash_in_words(found: FlashTemperature) -> str:
     x, z = 1e3 * found.place[hottest]
     return (f"flash temperature {found.largest:.5g} K, {x:.4g} mm ahead of the center and {z:.4g} mm to its right, "
             f"at {found.speed:.5g} m/s")
-
-
-def write_table(path: pathlib.Path, columns: Mapping[str, np.ndarray[Any, Any]]) -> pathlib.Path:
-    """A CSV file of these columns."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with open(path, "w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(columns)
-            writer.writerows(zip(*(values.tolist() for values in columns.values())))
-    except OSError as reason:
-        raise FileError(f"{path}: cannot be written: {reason.strerror}; choose another -o") from None
-    return path

@@ -20,12 +20,12 @@ if TYPE_CHECKING:
     from ..data.sweep import Sweep
 
 
-def draw_tyre(sweep: Sweep, folder: str | os.PathLike[str], more: Sequence[Sweep] = ()
-              ) -> list[pathlib.Path]:
+def draw_tyre(sweep: Sweep, folder: str | os.PathLike[str], more: Sequence[Sweep] = (),
+              axes: str | None = None) -> list[pathlib.Path]:
     """Writes `tyre-KEY`, curves over the slip angle for each value of that parameter with the rest
     at its middle values (`tyre` where none varies), with the members of `more` sweeps beside them;
     where spin or speed varies, `friction-ellipse` at all its values, curves at its middle one; and of two sweeps `tyre.txt`, a table of the
-    members that both have. Figures as PNG and SVG; returns their files. An error where the slip
+    members that both have. axes: of the curves, by default rondo's own; their names then end in it. Figures as PNG and SVG; returns their files. An error where the slip
     angle does not vary."""
     into = pathlib.Path(folder)
     written: list[pathlib.Path] = []
@@ -40,7 +40,7 @@ def draw_tyre(sweep: Sweep, folder: str | os.PathLike[str], more: Sequence[Sweep
     for key in keys or [None]:
         middle = {rest: middle_of(sweep, rest) for rest in others if rest != key}
         chosen = [with_values(one, middle) for one in sweeps]
-        keep(f"tyre-{key}" if key else "tyre", plot_tyre_curves(*chosen, by=key))
+        keep("-".join(filter(None, ("tyre", key, axes))), plot_tyre_curves(*chosen, by=key, axes=axes))
     slip = next((key for key in others if key in MAKES_SLIP), None)
     if slip:
         middle = {rest: middle_of(sweep, rest) for rest in others if rest != slip}

@@ -3,7 +3,6 @@
 Audio Electroacoust. 15 (1967) 70."""
 from __future__ import annotations
 
-import csv
 import math
 import pathlib
 from dataclasses import dataclass
@@ -13,7 +12,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from .. import style
-from ..data.errors import Error, FileError, unknown
+from ..data.errors import Error, unknown
+from ..data.files import write_table
 from .curves import MIN_ROWS, NO_COURSE, even_rows, mark_passing
 from .labels import axes_of, column_label
 
@@ -108,15 +108,7 @@ def draw_psd(run: Run, psd: Psd, ax: Axes | None = None) -> Axes:
 
 def write_psd(psd: Psd, path: pathlib.Path) -> pathlib.Path:
     """A CSV file: frequency_hz, and the density in psd.unit under the column's name."""
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with open(path, "w", newline="") as file:
-            writer = csv.writer(file, lineterminator="\n")
-            writer.writerow(("frequency_hz", f"{psd.column}_psd"))
-            writer.writerows(zip(psd.frequency.tolist(), psd.density.tolist()))
-    except OSError as reason:
-        raise FileError(f"{path}: cannot be written: {reason.strerror}; choose another -o") from None
-    return path
+    return write_table(path, {"frequency_hz": psd.frequency, f"{psd.column}_psd": psd.density})
 
 
 def psd_in_words(psd: Psd) -> str:

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "rondo/analysis/base/region_figures.hpp"
+#include "rondo/analysis/build/push/push_words.hpp"
 #include "rondo/analysis/crush/crush.hpp"
 #include "rondo/analysis/crush/wheel_crush.hpp"
 #include "rondo/analysis/dynamic.hpp"
@@ -83,6 +84,7 @@ CheckReport check_case(const Case& c, const CheckOptions& options) {
   std::vector<Told> regions = region_lines(*plan.results.mesh, plan.materials);
   if (c.inflation) regions.front().first = "rubber, no cords";  // its mass is among the lines
   report.lines.insert(report.lines.begin(), regions.begin(), regions.end());
+  for (Told& line : push_lines(c, *plan.results.mesh)) report.lines.push_back(std::move(line));
   if (options.columns) report.columns = plan.columns;
   return report;
 }

@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "rondo/core/error.hpp"
+#include "rondo/io/axes_tables.hpp"
 #include "rondo/io/files.hpp"
 
 namespace rondo::io {
@@ -202,6 +203,7 @@ DirectoryLock take_results_directory(const fs::path& directory, DirectoryUse use
     throw FileError(directory.string(), "cannot create directory: " + message(error.value()));
   DirectoryLock lock(directory);
   remove_unfinished(directory);
+  if (use != DirectoryUse::begin) remove_axes_tables(directory, "history");
   if (use == DirectoryUse::overwrite) {
     clear_results_directory(directory);
     for (const char* name : input_files) remove_one(directory / name);

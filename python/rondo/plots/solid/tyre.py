@@ -16,8 +16,10 @@ from matplotlib.text import Annotation
 from numpy.typing import NDArray
 
 from ... import style
+from ...data.axes import sense_in
 from ...data.errors import Error
-from ...data.tyre import (ALIGNING, ALONG, ANGLE, LATERAL, LOAD, SLIP, column_of, key_of, name_of,
+from ...data.sweep_table import column_of
+from ...data.tyre import (ALIGNING, ALONG, ANGLE, LATERAL, LOAD, SLIP, key_of, name_of,
                           name_of_parameter, need_angles, numbers_of, others_of)
 from ..labels import column_label, parameter_label, readable
 from ..marks import minus
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 PANELS = ((LATERAL, "N"), (ALIGNING, "N·m"))
+IN_AXES = {LATERAL: " $F_y$", ALIGNING: " $M_z$"}
 HEIGHT = 2.9  # in
 BELOW = 0.1  # of the height, for the legend
 SQUARE = 4.2  # in
@@ -41,11 +44,12 @@ MAKES_SLIP = ("motion.angular_velocity", "motion.speed")
 
 
 def plot_tyre_curves(sweep: Sweep, *more: Sweep, by: str | None = None,
-                     names: Sequence[str] = ()) -> Figure:
+                     names: Sequence[str] = (), axes: str | None = None) -> Figure:
     """Lateral force and aligning moment over the slip angle, in two panels, with a curve for each
     value of the parameter `by` (load, height, camber), by default the only one that varies besides.
     Members of `more` sweeps, as steady ones beside transient ones, are open marks in the colours of
-    the same values. names: of the sweeps, by default "transient" and "steady"."""
+    the same values. names: of the sweeps, by default "transient" and "steady". axes: "iso-w", "sae", ... for force,
+    moment and slip angle in that system (docs/conventions.md); None: rondo's own."""
     sweeps = [sweep, *more]
     by = by or parted_by(sweep)
     for one in sweeps:
@@ -60,9 +64,10 @@ def plot_tyre_curves(sweep: Sweep, *more: Sweep, by: str | None = None,
     with style.paper():
         figure = plt.figure(figsize=(style.PAGE, HEIGHT))
         for ax, (name, unit) in zip(figure.subplots(1, 2), PANELS):
-            draw_panel(ax, sweeps, name, unit, by, levels)
-        draw_legend(figure, sweeps, by, levels, names)
-        figure.suptitle(heading([sweep.title, *constants(sweep)], style.PAGE),
+            draw_panel(ax, sweeps, name, unit, by, levels, axes)
+        draw_legend(figure, sweeps, by, levels, names, axes)
+        said = [f"axes {axes}"] if axes else []
+        figure.suptitle(heading([sweep.title, *said, *constants(sweep, axes)], style.PAGE),
                         fontsize=style.RC["axes.titlesize"])
     return figure
 
@@ -77,28 +82,36 @@ def parted_by(sweep: Sweep) -> str | None:
 
 
 def draw_panel(ax: Axes, sweeps: Sequence[Sweep], name: str, unit: str, by: str | None,
-               levels: Array) -> None:
-    columns = [column_of(one, name) for one in sweeps]
-    factor, shown = readable(float(np.nanmax(np.abs(np.concatenate(columns)))), unit)
-    for one, column, look in zip(sweeps, columns, SWEEPS):
+               levels: Array, axes: str | None = None) -> None:
+    curves = [curve_of(one, name, axes) for one in sweeps]
+    factor, shown = readable(float(np.nanmax(np.abs(np.concatenate([y for _, y in curves])))), unit)
+    for one, (angles, column), look in zip(sweeps, curves, SWEEPS):
         for level, curve in zip(levels, style.CURVES):
             chosen = np.isfinite(column)
             if by is not None:
                 chosen &= np.isclose(numbers_of(one, by), level)
-            angle = np.degrees(np.asarray(one[ANGLE], dtype=float)[chosen])
+            angle = np.degrees(angles[chosen])
             order = np.argsort(angle)
             ax.plot(angle[order], factor * column[chosen][order], **{**curve, **look})
     for line in (ax.axhline, ax.axvline):
         line(0.0, color="0.8", linewidth=0.6, zorder=0)
-    ax.set(xlabel="slip angle (°)", ylabel=f"{column_label(name)} ({shown})")
+    ax.set(xlabel="slip angle (°)", ylabel=f"{column_label(name)}{IN_AXES[name] if axes else ''} ({shown})")
+
+
+def curve_of(sweep: Sweep, name: str, axes: str | None) -> tuple[Array, Array]:
+    """(members,) slip angle [rad] and force or moment, in rondo's axes or in others."""
+    if axes is None or axes == "rondo":
+        return np.asarray(sweep[ANGLE], dtype=float), column_of(sweep, name)
+    found = sweep.in_axes(axes)
+    return found.slip_angle, found.Fy if name == LATERAL else found.Mz
 
 
 def draw_legend(figure: Figure, sweeps: Sequence[Sweep], by: str | None, levels: Array,
-                names: Sequence[str]) -> None:
+                names: Sequence[str], axes: str | None = None) -> None:
     """Values of the parameter by their colours, then the sweeps by their marks."""
     handles, texts = [], []
     if by is not None:
-        scale = [said_level(by, level, unit_of(sweeps[0], by)) for level in levels]
+        scale = [said_level(by, level, unit_of(sweeps[0], by), axes) for level in levels]
         handles += [Line2D([], [], **curve) for _, curve in zip(levels, style.CURVES)]
         texts += [f"{parameter_label(by)} {text}" for text in scale]
     if len(sweeps) > 1:
@@ -110,8 +123,10 @@ def draw_legend(figure: Figure, sweeps: Sequence[Sweep], by: str | None, levels:
         figure.get_layout_engine().set(rect=(0, BELOW, 1, 1 - BELOW))  # room for the legend
 
 
-def said_level(key: str, value: float, unit: str) -> str:
-    """A value of a parameter: angles in degrees, lengths in mm."""
+def said_level(key: str, value: float, unit: str, axes: str | None = None) -> str:
+    """A value of a parameter: angles in degrees, lengths in mm. With the sign that it has in these
+    axes: a camber or a turn slip."""
+    value = value * (sense_in(axes, key) if axes else 1) + 0.0
     if key.endswith(("slip_angle", "camber")):
         return f"{np.degrees(value):.3g}°"
     if key.endswith("height"):
@@ -120,12 +135,12 @@ def said_level(key: str, value: float, unit: str) -> str:
     return f"{factor * value:g}" if shown == "–" else f"{factor * value:g} {shown}"
 
 
-def constants(sweep: Sweep) -> list[str]:
+def constants(sweep: Sweep, axes: str | None = None) -> list[str]:
     """What the parameters are in which these members are alike, as after a select()."""
     alike = [name_of_parameter(key) for key in sweep.parameters
              if key != ANGLE and len(np.unique(sweep[key])) == 1]
     return [f"{parameter_label(name)} "
-            f"{said_level(name, float(numbers_of(sweep, name)[0]), unit_of(sweep, name))}"
+            f"{said_level(name, float(numbers_of(sweep, name)[0]), unit_of(sweep, name), axes)}"
             for name in alike]
 
 

@@ -196,7 +196,7 @@ CollectReport collect_shards(const SweepRequest& request, Team& team) {
   const auto none = [](std::vector<PlannedMember>& members) {
     for (PlannedMember& member : members) member.part = Part::other;  // nothing is built
   };
-  PlannedSweep plan = plan_sweep({study, false, request.checking, none}, team);
+  PlannedSweep plan = plan_sweep({study, false, request.checking, none, request.accept}, team);
   for (PlannedMember& member : plan.members) member.part = Part::own;
   const fs::path& directory = request.directory;
   const SweepIdentity identity = identity_of(request, study, plan);

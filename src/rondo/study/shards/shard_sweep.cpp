@@ -104,7 +104,8 @@ std::optional<io::DirectoryLock> begin(const SweepRequest& request, const Shard&
 MembersRequest members_request(const SweepRequest& request, const SweepStudy& study,
                                const Shard& shard, bool seconds) {
   return {study, seconds, request.checking,
-          [shard](std::vector<PlannedMember>& members) { choose_members(members, shard); }};
+          [shard](std::vector<PlannedMember>& members) { choose_members(members, shard); },
+          request.accept};
 }
 
 void end(const SweepRequest& request, ShardFile file, const SweepRows& rows,

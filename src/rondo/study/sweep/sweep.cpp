@@ -35,13 +35,13 @@ std::optional<io::DirectoryLock> begin(const SweepRequest& request, const SweepR
 
 DrySweep check_sweep(const SweepRequest& request, Team& team) {
   DrySweep dry{study_of(request), {}};
-  dry.plan = plan_sweep({dry.study, true, request.checking, {}}, team);
+  dry.plan = plan_sweep({dry.study, true, request.checking, {}, request.accept}, team);
   return dry;
 }
 
 SweepReport run_sweep(const SweepRequest& request, Team& team) {
   const SweepStudy study = study_of(request);
-  const PlannedSweep plan = plan_sweep({study, false, request.checking, {}}, team);
+  const PlannedSweep plan = plan_sweep({study, false, request.checking, {}, request.accept}, team);
   if (plan.stopped) return interrupted_report(plan);
   SweepRows rows(request, study, plan);
   const std::optional<io::DirectoryLock> lock = begin(request, rows, study, plan, team);

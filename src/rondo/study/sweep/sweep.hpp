@@ -23,6 +23,8 @@ struct SweepRequest {
   /// Receives the stage of the members ("read",
   /// "check"), the number done and of all; may be empty.
   std::function<void(const char* what, long long done, long long all)> checking;
+  /// Throws an InputError for the case of a member that is not to be run; may be empty.
+  std::function<void(const Case&)> accept;
   /// Called when everything is checked, before the directory is changed; from then on a signal asks
   /// for a clean end. May be empty.
   std::function<void()> before_files;

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "rondo/core/error.hpp"
+#include "rondo/io/axes_tables.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/hash.hpp"
 #include "rondo/output/run_files.hpp"
@@ -155,6 +156,7 @@ void prepare_sweep(const SweepRequest& request, const std::string& hash) {
 
 void clear_sweep(const SweepRequest& request) {
   if (!request.overwrite) return;
+  io::remove_axes_tables(request.directory, "results");
   std::error_code error;
   for (const char* name :
        {"runs", "pod", shards_folder, files_written[0], files_written[1], files_written[2]})

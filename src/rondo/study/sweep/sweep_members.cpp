@@ -100,11 +100,12 @@ std::string road_hash_of(const Case& c) {
 }
 
 /// The data of a member that are known from its case alone.
-nlohmann::json read_member(const SweepStudy& study, const PlannedMember& member,
+nlohmann::json read_member(const MembersRequest& request, const PlannedMember& member,
                            MeshHashes& meshes) {
   try {
-    const Case c = case_of(study, member);
-    check_window(study, c);
+    const Case c = case_of(request.study, member);
+    check_window(request.study, c);
+    if (request.accept) request.accept(c);
     return {{"columns", type_of(c).figures.columns.size()},
             {"hash",
              hash_of(write_case(kept_case(c)) + meshes.of(c) + road_hash_of(c))},  // wherever it is
@@ -176,7 +177,7 @@ bool read_members(const MembersRequest& request, Team& team, PlannedSweep& plan,
   std::size_t most_columns = 0, typical = 0;
   MemberWork work;
   work.count = plan.members.size();
-  work.work = [&](std::size_t m) { return read_member(request.study, plan.members[m], meshes); };
+  work.work = [&](std::size_t m) { return read_member(request, plan.members[m], meshes); };
   work.take = [&](std::size_t m, const nlohmann::json& j) {
     if (take_faults(j, m, faults)) return;
     take_reading(j, plan.members[m]);

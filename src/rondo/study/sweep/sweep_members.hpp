@@ -51,6 +51,8 @@ struct MembersRequest {
   std::function<void(const char* what, long long done, long long all)> progress;
   /// Sets the parts of the members after reading and before building them; empty: all are own.
   std::function<void(std::vector<PlannedMember>& members)> choose;
+  /// Throws an InputError for a case that is not to be run; may be empty.
+  std::function<void(const Case&)> accept;
 
   /// For TeamWork::watch.
   [[nodiscard]] std::function<void(std::size_t)> watch(const char* what, std::size_t all) const;

@@ -11,6 +11,7 @@
 
 #include "rondo/case/case_keys.hpp"
 #include "rondo/core/column.hpp"
+#include "rondo/io/axes_tables.hpp"
 #include "rondo/io/files.hpp"
 #include "rondo/io/h5/h5.hpp"
 #include "rondo/output/run_files.hpp"
@@ -153,6 +154,7 @@ void write_tables(const std::filesystem::path& directory, const SweepTables& t) 
     table += line_of(t, m, n_figures);
     timings += fmt::format("{},{},{:.6f}\n", m + 1, t.rows[m].worker + 1, t.rows[m].wall_s);
   }
+  io::remove_axes_tables(directory, "results");
   io::write_file(directory / "results.csv", table);
   io::write_file(directory / "timings.csv", timings);
   write_h5(directory / "sweep.h5", t);

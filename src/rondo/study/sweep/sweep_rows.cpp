@@ -43,7 +43,23 @@ MemberRow lost_row(const std::string& file) {
   return row;
 }
 
+/// The case with all its keys. Files are told by their names alone, as those of the study and its
+/// base are: shards that call the study by other paths write the same.
+std::string text_without_folders(Case c) {
+  if (MeshCase* mesh = mesh_file_of(c)) mesh->file = mesh->file.filename();
+  if (c.ground && !c.ground->road.file.empty())
+    c.ground->road.file = std::filesystem::path(c.ground->road.file).filename().string();
+  return write_case(c);
+}
+
 }  // namespace
+
+SweepRows::SweepRows(const SweepRequest& request, const SweepStudy& study, const PlannedSweep& plan)
+    : request_(request),
+      study_(study),
+      plan_(plan),
+      first_case_(text_without_folders(case_of(study, plan.members.front()))),
+      rows_(plan.members.size()) {}
 
 void SweepRows::write(const char* status) const {
   io::write_json(request_.directory / "sweep.json", describe(status));
@@ -153,6 +169,7 @@ Json SweepRows::describe(std::string_view status) const {
   j["study"] = as_utf8(study_.file.filename().string());
   j["base"] = as_utf8(study_.base.filename().string());
   j["parameters"] = describe_parameters();
+  j["case"] = as_utf8(first_case_);
   j["columns"] = Json::array();
   for (const ColumnLabel& column : figure_labels(plan_))
     j["columns"].push_back({{"name", column.name}, {"unit", column.unit}});

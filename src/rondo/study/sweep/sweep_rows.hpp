@@ -16,9 +16,9 @@ namespace rondo::study {
 
 class SweepRows {
  public:
-  /// All arguments are kept by reference.
-  SweepRows(const SweepRequest& request, const SweepStudy& study, const PlannedSweep& plan)
-      : request_(request), study_(study), plan_(plan), rows_(plan.members.size()) {}
+  /// All arguments are kept by reference. Reads the case of run 1, which sweep.json tells, before
+  /// its file may change. @throws InputError, FileError
+  SweepRows(const SweepRequest& request, const SweepStudy& study, const PlannedSweep& plan);
 
   /// Writes sweep.json. @throws FileError
   void write(const char* status) const;
@@ -52,6 +52,7 @@ class SweepRows {
   const SweepRequest& request_;
   const SweepStudy& study_;
   const PlannedSweep& plan_;
+  const std::string first_case_;
   std::vector<MemberRow> rows_;
   Clock::time_point begin_ = Clock::now();
   std::optional<double> wall_s_;
