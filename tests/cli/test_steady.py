@@ -250,6 +250,25 @@ class Steady(RunTest):
             self.assertEqual((row["force_x"], row["force_y"], row["torque"], row["rolling_resistance"]),
                              (s["force_x"], s["force_y"], s["torque"], s["rolling_resistance"]))
 
+    def test_members_of_one_spin_share_harmonics_wherever_they_stand(self):
+        self.case(SMALL, "small.toml")
+        study = """schema = 1
+base = "small.toml"
+snapshots = true
+[[vary]]
+key = "ground.friction"
+values = [0.1, 0.3, 0.5]
+[[vary]]
+key = "motion.angular_velocity"
+values = [-33.0, -34.0]
+"""
+        self.assert_done(run("sweep", self.case(study, "study.toml"), "-o", self.out, "--jobs", 1))
+        table = np.genfromtxt(self.out / "results.csv", delimiter=",", names=True, dtype=None, encoding=None)
+        self.assertEqual(list(table["motionangular_velocity"]), 3 * [-33.0, -34.0])
+        seconds = [summary(folder)["harmonics_wall_s"] for folder in sorted(self.out.glob("runs/*"))]
+        self.assertEqual(len(seconds), 6)
+        self.assertEqual([len(set(seconds[0::2])), len(set(seconds[1::2]))], [1, 1])  # each found once
+
     def test_threads_change_no_bit(self):
         results = []
         for threads in (1, 2, 3):

@@ -17,6 +17,7 @@
 #include "rondo/analysis/inflation/inflation.hpp"
 #include "rondo/analysis/reduced/wheel.hpp"
 #include "rondo/analysis/steady/steady.hpp"
+#include "rondo/analysis/steady/steady_case.hpp"
 
 namespace rondo::study {
 
@@ -40,9 +41,9 @@ std::span<const AnalysisType> analysis_types() noexcept {
       AnalysisType{crush, by_latin_pgd, "increment", make_crush, pgd_figures(), nullptr, true},
       AnalysisType{crush, nullptr, "increment", make_crush, crush_figures()},
       AnalysisType{steady_rolling, is_solid, "place", make_steady_rolling, solid_steady_figures(),
-                   solve_steady_rolling},
+                   solve_steady_rolling, false, harmonics_key},
       AnalysisType{steady_rolling, nullptr, "place", make_steady_rolling, steady_figures(),
-                   solve_steady_rolling},
+                   solve_steady_rolling, false, harmonics_key},
       AnalysisType{inflation, nullptr, "step", make_inflation, inflation_figures()},
   };
   return types;

@@ -2,6 +2,7 @@
 /// @file  Which analyses there are: a row each, or several where figures depend on the case.
 #pragma once
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "rondo/analysis/base/analysis.hpp"
@@ -20,6 +21,8 @@ struct AnalysisType {
   /// it takes longer than the run. Null: its runs have directories. @throws InputError as a run
   DirectRun (*direct)(const Case& c, const RunOptions& options) = nullptr;
   bool finds_modes = false;  ///< its runs find modes, and may begin with those of another run
+  /// Runs with equal keys that follow one another share more than the body. Null: nothing.
+  std::string (*shared_key)(const Case& c) = nullptr;
 };
 
 [[nodiscard]] const AnalysisType& type_of(const Case& c) noexcept;

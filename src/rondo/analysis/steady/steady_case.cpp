@@ -18,18 +18,6 @@
 namespace rondo::study {
 namespace {
 
-/// Equal for cases that share harmonics.
-std::string harmonics_key(const Case& c) {
-  const AnalysisCase& a = c.analysis;
-  std::string key = fmt::format("{}\n{:a} {:a} {:a} {} {} {}", body_key(c), spin_of(c),
-                                c.damping.mass, c.damping.stiffness, a.samples_per_sector,
-                                a.massless_contact, static_cast<int>(a.inertia));
-  // In three dimensions both come with the state.
-  if (!is_solid(c))
-    key += fmt::format(" {:a} {}", c.motion.gravity.at(0.0), static_cast<int>(a.slip));
-  return key;
-}
-
 std::shared_ptr<RolledBody> make_body(const Case& c) {
   std::shared_ptr<RolledBody> body;
   if (is_solid(c))
@@ -51,6 +39,17 @@ struct KeptBody {
 };
 
 }  // namespace
+
+std::string harmonics_key(const Case& c) {
+  const AnalysisCase& a = c.analysis;
+  std::string key = fmt::format("{}\n{:a} {:a} {:a} {} {} {}", body_key(c), spin_of(c),
+                                c.damping.mass, c.damping.stiffness, a.samples_per_sector,
+                                a.massless_contact, static_cast<int>(a.inertia));
+  // In three dimensions both come with the state.
+  if (!is_solid(c))
+    key += fmt::format(" {:a} {}", c.motion.gravity.at(0.0), static_cast<int>(a.slip));
+  return key;
+}
 
 double spin_of(const Case& c) {
   return -c.motion.angular_velocity.at(0.0);

@@ -126,6 +126,8 @@ void describe_body(const Case& c, const RolledBody& body, Json& json);
 [[nodiscard]] std::vector<std::string> all_warnings(const Case& c, const RolledBody& body,
                                                     const std::vector<std::string>& more);
 
+/// Equal for cases that share harmonics.
+[[nodiscard]] std::string harmonics_key(const Case& c);
 /// Assembled, or that of the run before where it fits, harmonics included.
 /// @param shared null: nothing is kept @throws InputError as assemble(); more memory than there is
 [[nodiscard]] std::shared_ptr<RolledBody> rolled_body(const Case& c, SharedBody* shared);

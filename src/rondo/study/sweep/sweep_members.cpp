@@ -106,12 +106,14 @@ nlohmann::json read_member(const MembersRequest& request, const PlannedMember& m
     const Case c = case_of(request.study, member);
     check_window(request.study, c);
     if (request.accept) request.accept(c);
-    return {{"columns", type_of(c).figures.columns.size()},
+    const AnalysisType& type = type_of(c);
+    return {{"columns", type.figures.columns.size()},
             {"hash",
              hash_of(write_case(kept_case(c)) + meshes.of(c) + road_hash_of(c))},  // wherever it is
             {"body", hash_of(body_key(c) + meshes.of(c))},
+            {"shared", type.shared_key ? hash_of(type.shared_key(c)) : std::string()},
             {"is_linear", !has_large_strains(c)},
-            {"finds_modes", type_of(c).finds_modes},
+            {"finds_modes", type.finds_modes},
             {"memory_bytes", guessed_memory(c)}};
   } catch (const InputError& error) {
     return faults_of(error);
@@ -129,6 +131,7 @@ bool take_faults(const nlohmann::json& j, std::size_t m, MemberFaults& faults) {
 void take_reading(const nlohmann::json& j, PlannedMember& member) {
   j["hash"].get_to(member.hash);
   j["body"].get_to(member.body);
+  j["shared"].get_to(member.shared);
   j["is_linear"].get_to(member.is_linear);
   j["finds_modes"].get_to(member.finds_modes);
   j["memory_bytes"].get_to(member.memory_bytes);
@@ -203,12 +206,14 @@ void hand_on_modes(std::vector<PlannedMember>& members) {
   }
 }
 
-/// Orders the members so that those that share a body follow one another.
+/// Orders the members so that those that share a body, and what else they share, follow one
+/// another.
 std::vector<std::size_t> by_body(const std::vector<PlannedMember>& members) {
   std::vector<std::size_t> order(members.size());
   std::iota(order.begin(), order.end(), 0);
-  std::ranges::stable_sort(order, {},
-                           [&](std::size_t m) -> const std::string& { return members[m].body; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t m) {
+    return std::tuple(std::string_view(members[m].body), std::string_view(members[m].shared));
+  });
   return order;
 }
 

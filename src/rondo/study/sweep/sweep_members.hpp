@@ -37,6 +37,7 @@ struct PlannedMember : MemberCost {
   Part part = Part::own;
   std::string hash;          ///< of the case as run and of its mesh
   std::string body;          ///< of the body that members share, see body_key(), and the mesh
+  std::string shared;        ///< of what members of one body share besides it; empty: nothing
   bool is_linear = true;     ///< whether all strains are meant to be small
   bool finds_modes = false;  ///< whether it is a crush by LATIN-PGD
   /// The member of the same body with whose modes it starts, if that has finished; none: it is the
@@ -63,8 +64,8 @@ struct PlannedSweep {
   std::vector<ChosenFigure> chosen;    ///< in addition to the type's figures
   bool is_solid = false;               ///< whether bodies are wheels in three dimensions
   std::vector<PlannedMember> members;  ///< in the order of their numbers
-  /// The order in which members are run: those that share a body follow one another, the longest
-  /// first.
+  /// The order in which members are run: those that share a body, and what else they share,
+  /// follow one another, the longest first.
   std::vector<std::size_t> order;
   bool stopped = false;  ///< before everything was checked
   /// Members have no directories: the runs are shorter than creating these, and are run again.
