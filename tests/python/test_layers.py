@@ -11,7 +11,8 @@ DRAWS = ("plots", "figures", "pictures", "style")
 ALLOWED = {  # by the first folder, or the module itself: what it may import besides its own
     "data": set(), "style": set(), "plots": {"data", "files", "style"}, "studies": {"data", "native"},
     "figures": {"data", "plots", "style"}, "pictures": {"data", "files", "plots", "reports"},
-    "reports": {"data", "figures", "plots", "rig", "style"}, "rig": {"data", "magic_formula", "plots", "reports", "style"},
+    "reports": {"data", "figures", "plots", "rig", "style"},
+    "rig": {"data", "files", "magic_formula", "plots", "reports", "style", "studies"},
     "native": {"data", "options", "studies"}, "options": set(), "about": {"data", "native", "studies"},
     "_core": set(), "matrices": {"_core", "data"},
     "simulation": {"_core", "data", "matrices", "native"}, "solution": {"data", "native", "simulation"},
@@ -20,7 +21,7 @@ ALLOWED = {  # by the first folder, or the module itself: what it may import bes
     "__init__": {"about", "axes", "calls", "data", "files", "magic_formula", "pictures", "interrupts", "needs",
                  "reduced_wheel", "simulation", "solution"},
     "command_help": set(), "interrupts": {"needs"}, "needs": set(),
-    "__main__": {"__init__", "about", "command_help", "interrupts", "needs", "data", "studies", "figures", "reports", "style"},
+    "__main__": {"__init__", "about", "command_help", "interrupts", "needs", "data", "studies", "figures", "reports", "rig", "style"},
 }
 
 

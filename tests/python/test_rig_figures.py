@@ -15,6 +15,13 @@ from rondo.rig import against, figures
 SETTINGS = {"friction": 1.0, "load": rigs.LOAD, "pressure": rigs.PRESSURE}
 
 
+@pytest.fixture(scope="module", autouse=True)
+def many_at_once():
+    """Tests keep all figures of a rig."""
+    with plt.rc_context({"figure.max_open_warning": 0}):
+        yield
+
+
 @pytest.fixture(scope="module")
 def rig(tmp_path_factory):
     folder = tmp_path_factory.mktemp("figures") / "rig"
@@ -26,8 +33,7 @@ def rig(tmp_path_factory):
 @pytest.fixture(scope="module")
 def drawn(rig):
     """By name."""
-    with plt.rc_context({"figure.max_open_warning": 0}):
-        found = {one.name: one for one in figures.figures_of(rig)}
+    found = {one.name: one for one in figures.figures_of(rig)}
     yield found
     for one in found.values():
         plt.close(one.figure)
@@ -136,6 +142,17 @@ def test_the_friction_circle_and_footprints(drawn):
         "2 kN, γ = 0°", "4 kN, γ = 0°", "6 kN, γ = 0°", "4 kN, γ = 3.44°"]
 
 
+def test_combined_points_are_joined_along_the_slip(tmp_path):
+    """Without tyre.tir. At no slip angle F_x falls behind its peak, and the curve goes back."""
+    tests = {name: rows for name, rows in rigs.all_tests().items() if name in ("combined", "longitudinal")}
+    one = next(one for one in figures.figures_of(rondo.open_rig(rigs.write(tmp_path / "rig", tests)))
+               if one.name == "combined-4kN")
+    plt.close("all")
+    x, _ = curves(one.figure, 0)[2]
+    slip, along = curves(one.figure, 1)[2]
+    assert (np.diff(slip) > 0).all() and (np.diff(x) < 0).any() and x == pytest.approx(along)
+
+
 def test_missing_runs_are_told(rig, tmp_path):
     """The rest is drawn."""
     folder = shutil.copytree(rig.directory, tmp_path / "rig")
@@ -163,8 +180,7 @@ def test_measurements_are_drawn_beside(rig, tmp_path):
     (tmp_path / "m.csv").write_text("\n".join(["SLIPANGL,FZW,FYW", *(f"{row['slip_angle']},{row['load']},{1.2 * row['Fy']}"
                                                                      for row in rows)]))
     compared = against.compare(rig, tmp_path / "m.csv")
-    with plt.rc_context({"figure.max_open_warning": 0}):
-        found = {one.name: one for one in figures.figures_of(rig, compared) if one.test == "lateral"}
+    found = {one.name: one for one in figures.figures_of(rig, compared) if one.test == "lateral"}
     plt.close("all")
     dots = [line for line in found["lateral-load"].figure.axes[0].lines if line.get_marker() == "."]
     assert len(dots) == 1 and np.abs(dots[0].get_ydata()).max() == pytest.approx(1.2e-3 * max(abs(row["Fy"]) for row in rows))

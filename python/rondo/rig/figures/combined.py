@@ -40,7 +40,7 @@ def draw(given: Given) -> Iterator[Drawn]:
             state = {"load": float(load), "pressure": pressure, "camber": 0.0, "slip_angle": angle}
             x, y = (fitted_curve(given, state, "slip_ratio", one["slip_ratio"], name) for name in ("Fx", "Fy"))
             curve(left, k, along[0] * one["Fx"], factor * one["Fy"],
-                  None if x is None or y is None else (along[0] * x[1], factor * y[1]))
+                  None if x is None or y is None else (along[0] * x[1], factor * y[1]), order=one["slip_ratio"])
             curve(right, k, percent * one["slip_ratio"], along[0] * one["Fx"],
                   None if x is None else (percent * x[0], along[0] * x[1]))
         if friction:

@@ -107,12 +107,13 @@ def cross(ax: Axes) -> None:
         line(0.0, color="0.85", linewidth=0.6, zorder=0)
 
 
-def curve(ax: Axes, k: int, x: Array, y: Array, fitted: tuple[Array, Array] | None = None, marked: bool = True) -> None:
-    """The points of the k-th level as marks, with the fitted curve through them, or joined where there is none; not
-    marked: a course of many points."""
+def curve(ax: Axes, k: int, x: Array, y: Array, fitted: tuple[Array, Array] | None = None, marked: bool = True,
+          order: Array | None = None) -> None:
+    """The points of the k-th level as marks, with the fitted curve through them, or joined where there is none: in the
+    order of x, or of `order`; not marked: a course of many points."""
     look = style.CURVES[k % MOST]
-    order = np.argsort(x)
-    ax.plot(x[order], y[order], **(_mark(k) if marked else {}),
+    rows = np.argsort(x if order is None else order)
+    ax.plot(x[rows], y[rows], **(_mark(k) if marked else {}),
             **(look if fitted is None else {"color": look["color"], "linestyle": "none"}))
     if fitted is not None:
         ax.plot(*fitted, **look)
