@@ -133,6 +133,9 @@ def test_measurements_and_fmu(done):
         done / "lateral.tdx", "--fmu", "-o", done)
     assert zipfile.is_zipfile(done / "tyre.fmu")
     assert "lateral.tdx" in (done / "report.html").read_text()
+    differences = json.loads((done / "rig.json").read_text())["against"]["differences"]
+    assert {one["channel"] for one in differences} >= {"Fy", "Mz"} and max(one["of_largest"] for one in differences) < 1e-5
+    assert len((done / "against.csv").read_text().splitlines()) == 1 + len(differences)
 
 
 def test_dry_run_and_defaults(tmp_path):

@@ -6,20 +6,33 @@ import pathlib
 import sys
 
 from ..data.errors import Error
+from ..data.files import read_json
 from ..data.rig import Rig, open_rig
-from .against import compare
+from .against import Comparison, compare
 from .figures import draw
 from .fit import write_tir
+from .record import write_json
 from .report import write
 
 
 def write_pages(directory: pathlib.Path, measured: pathlib.Path | None = None) -> list[pathlib.Path]:
-    """The files that were written. Where the points do not suffice for tyre.tir, the report says so."""
+    """The files that were written. Where the points do not suffice for tyre.tir, a warning and the report say so.
+    @raise Error: of the measurements, when all else is written."""
     rig = open_rig(directory)
     files = [] if (tir := _tir(rig)) is None else [tir]
-    against = compare(rig, measured) if measured is not None else None
+    against: Comparison | None = None
+    trouble: Error | None = None
+    if measured is not None:
+        try:
+            against = compare(rig, measured)
+            files.append(_write_comparison(rig, against))
+        except Error as reason:
+            trouble = reason
     draw(rig, directory / "figures", against)
-    return [*files, directory / "figures", write(rig, directory / "report.html", against)]
+    files += [directory / "figures", write(rig, directory / "report.html", against)]
+    if trouble is not None:
+        raise trouble
+    return files
 
 
 def _tir(rig: Rig) -> pathlib.Path | None:
@@ -31,3 +44,9 @@ def _tir(rig: Rig) -> pathlib.Path | None:
         print(f"rondo: warning: no tyre.tir: {reason}", file=sys.stderr)
         return None
     return path
+
+
+def _write_comparison(rig: Rig, against: Comparison) -> pathlib.Path:
+    """against.csv, and the same in rig.json."""
+    write_json(rig.directory / "rig.json", {**read_json(rig.directory / "rig.json"), "against": against.summary})
+    return against.write(rig.directory / "against.csv")
