@@ -92,7 +92,8 @@ class SteadyNonlinear(TyreTest):
 
     def test_round_off_of_powers_is_judged_by_load_and_speed(self):
         """A column under the axle has no arm: what its normal forces turn is no scale."""
-        self.assertLess(self.load(1e-3)["energy_residual_relative"], 1e-12)
+        self.load(1e-3)
+        self.assertLess(summary(self.results)["energy_residual_relative"], 1e-12)
 
     def test_what_is_not_balanced_is_told(self):
         text = rolling(RADIUS - 0.09, more="speed = 3.1e-4").replace("sectors = 90", "sectors = 12")

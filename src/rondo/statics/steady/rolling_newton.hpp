@@ -45,7 +45,7 @@ struct RollingState {
   RollingStatuses statuses{};  ///< (pairs)
   /// Residual of the law, relative (6.4d); infinite: nothing was solved yet [-]
   double residual = std::numeric_limits<double>::infinity();
-  RollingSlopes slopes{};  ///< of what is solved; in space once they are added (rolling_law.hpp)
+  RollingSlopes slopes{};  ///< of what is solved
   bool touches = true;     ///< false: nothing is closed
   RollingEffort effort{};
   std::vector<PairFriction> pairs{};  ///< (pairs) by the law of friction; empty: factors of 1

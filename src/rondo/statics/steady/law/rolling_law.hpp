@@ -14,13 +14,7 @@ namespace rondo::statics {
 template <int D>
 void begin(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& state);
 
-/// In space: what sticks and slides, and where to, by the solution on groups of pairs with
-/// friction.
-/// @param state as begin() left it @return whether there is one
-[[nodiscard]] bool refine(const RollingProblem<3>& problem, const RollingDrive& drive,
-                          RollingState& state);
-
-/// Newton's method; in the plane slopes too, if it ends in a solution.
+/// Newton's method; slopes too, if it ends in a solution.
 template <int D>
 void newton(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& state);
 inline constexpr int most_newton_steps = 60;
@@ -28,9 +22,6 @@ inline constexpr int most_newton_steps = 60;
 /// Where Newton's method did not end, height and speed as they are.
 template <int D>
 void rescue(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& state);
-
-/// In space, where they take as long as some steps of Newton's method: slopes of what is solved.
-void add_slopes(const RollingProblem<3>& problem, const RollingDrive& drive, RollingState& state);
 
 /// With coefficients that follow from the state (rolling_friction.hpp). @pre the drive has a law
 template <int D>
