@@ -263,7 +263,7 @@ def _rig(options: argparse.Namespace) -> int:
     from rondo.rig.command import Request, defaults_text, plan, run_rig
     from rondo.rig.tests_table import TESTS
 
-    tests = tuple(options.tests.split(",")) if options.tests else tuple(TESTS)
+    tests = tuple(name.strip() for name in options.tests.split(",")) if options.tests else tuple(TESTS)
     request = Request(options.case, options.output or pathlib.Path(f"{options.case.stem}-rig"), options.rig, tests,
                       options.quick, options.jobs or 0, options.overwrite, options.quiet, options.against, options.fmu)
     if options.write_defaults or options.dry_run:

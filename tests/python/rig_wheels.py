@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A small wheel for the tyre test rig: a cylinder of rubber with cords at an angle, so that it steers by its plies."""
+"""A small wheel for the tyre test rig: a cylinder of rubber, a state of which is some milliseconds."""
 import os
 import subprocess
 import sys
 
-# A box of 2 x 3 elements; a state is some milliseconds.
 WHEEL = """schema = 1
 title = "Small wheel"
 [disk]
@@ -41,7 +40,7 @@ few_slip_angles_deg = [-2.0, 0.0, 2.0]
 [footprint]
 loads = [2000.0, 4000.0]
 [road]
-length = 1.0
+length = 2.0
 modes = 20
 [cleat]
 modes = 20

@@ -17,6 +17,7 @@ from .toml_text import toml_text
 from .tyre import Tyre
 
 SWEEP, RUN, MODES, FMU = "sweep", "run", "modes", "fmu"  # kinds of blocks: commands of the program
+MADE_OF = "made-of"  # the file with the identity of a block whose command has ended
 RESULTS = "results"  # their directory; of an FMU the file itself is this with .fmu
 _KEPT = ("section", "disk", "material", "cords", "inflation", "damping")  # tables of a case that are the tyre's own
 
@@ -69,9 +70,23 @@ class Block:
         alone = [] if self.kind == MODES else ["--jobs", "1"]
         return [self.kind, str(folder / file), "-o", str(folder / RESULTS), "--overwrite", "--quiet", *alone, *self.options]
 
+    def is_there(self, folder: pathlib.Path, identity: str) -> bool:
+        """Its results are there, and were made of the same."""
+        try:
+            return (folder / MADE_OF).read_text(encoding="utf-8") == identity and (folder / self.result).exists()
+        except (OSError, ValueError):
+            return False
+
+    @property
+    def result(self) -> str:
+        """The file by which its results are known to be there."""
+        ends = {SWEEP: "/results.csv", RUN: "/run.json", MODES: "/modes.csv", FMU: ".fmu"}
+        return f"{RESULTS}{ends[self.kind]}"
+
     def write(self, folder: pathlib.Path) -> None:
         """Anew: results of another time go."""
         try:
+            (folder / MADE_OF).unlink(missing_ok=True)
             shutil.rmtree(folder / RESULTS, ignore_errors=True)
             folder.mkdir(parents=True, exist_ok=True)
             for name, text in self.texts().items():

@@ -10,6 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+import numpy as np
+
 from ..data.errors import Error, InputError
 from ..data.files import read_json
 from ..studies.jobs import INTERRUPTED, NUMERICAL, Job, Stop, processors, run_jobs
@@ -17,15 +19,15 @@ from ..studies.lock import Lock
 from ..studies.program import Program, find_program
 from ..studies.progress import Progress, readable_time
 from .against_reading import read_measured
-from .blocks import RESULTS, Bench, Block
+from .blocks import MADE_OF, RESULTS, SWEEP, Bench, Block
 from .defaults import nominal, with_defaults
 from .findings import find
 from .keys import TOP
-from .record import FORMAT, write_channels, write_json, write_table
+from .record import FORMAT, replace_text, write_channels, write_json, write_table
 from .rows import DONE, FAILED, free_radius, rows_of_block
 from .settings import Settings, read_settings, settings_text
 from .states import Row, States, states_of
-from .steady_tests import reference
+from .steady_tests import at_speeds, reference
 from .tests_table import TESTS
 from .time_tests import fmu
 from .tyre import Tyre, read_tyre
@@ -93,7 +95,7 @@ class Rig:
         self.request, self.program = request, find_program()
         self.tyre: Tyre = read_tyre(request.case)
         self.given: Settings = read_settings(request.rig)
-        self.info: dict[str, Any] = {}
+        self.known: dict[str, Any] = {}  # tests of the same rig that were done before
         self.blocks: dict[str, list[Block]] = {}
         self.rows: dict[str, list[Row]] = {}
         self.tests: dict[str, dict[str, Any]] = {}
@@ -126,25 +128,39 @@ class Rig:
         foreign = [name for name in ("run.json", "sweep.json", "paper.json") if (self.request.directory / name).exists()]
         if foreign:
             raise InputError(f"{self.request.directory}: holds {foreign[0]}, and is no directory of a rig; choose another -o")
-        if not path.exists() or self.request.overwrite:
+        if not path.exists():
             return
-        known = read_json(path)
-        if known.get("format") != FORMAT:
-            raise InputError(f'{path}: format "{known.get("format")}" is not "{FORMAT}"; choose another -o, or give --overwrite')
-        now = self._sources()
-        changed = [name for name, value in now.items() if known.get("sources", {}).get(name) != value]
-        if changed:
-            raise InputError(f"{self.request.directory}: holds a rig of another {' and another '.join(changed)}; choose "
-                             "another -o, or give --overwrite, which runs what has changed")
-        self.info = {"blocks": known.get("blocks", {})}
+        try:
+            known = read_json(path)
+        except Error:
+            if not self.request.overwrite:
+                raise
+            known = {}
+        changed = [name for name, value in self._sources().items() if known.get("sources", {}).get(name) != value]
+        if not changed and known.get("format") == FORMAT:
+            self.known = known.get("tests", {})
+            return
+        if not self.request.overwrite:
+            raise InputError(f"{self.request.directory}: holds a rig of another {' and another '.join(changed) or 'format'}; "
+                             "choose another -o, or give --overwrite, which runs what has changed")
+        self._remove_tables()
+
+    def _remove_tables(self) -> None:
+        """Those of another rig."""
+        names = [f"{test}{end}" for test in TESTS for end in (".csv", ".tdx")]
+        for name in [*names, "tyre.tir", "tyre.fmu", "against.csv", "report.html"]:
+            (self.request.directory / name).unlink(missing_ok=True)
+        shutil.rmtree(self.request.directory / "figures", ignore_errors=True)
 
     def _sources(self) -> dict[str, Any]:
         rig = self.request.rig
         return {"case": self.tyre.text, "rig file": rig.read_text() if rig else "", "--quick": self.request.quick}
 
     def _is_there(self, block: Block) -> bool:
-        known = self.info.get("blocks", {}).get(block.name)
-        return bool(self.program.build_id) and known == block.identity(self.program.build_id, self._mesh)
+        return bool(self.program.build_id) and block.is_there(self.runs / block.name, self._identity(block))
+
+    def _identity(self, block: Block) -> str:
+        return block.identity(self.program.build_id, self._mesh)
 
     # As it goes on
 
@@ -171,24 +187,40 @@ class Rig:
         self.bench = Bench(self.tyre, settings, self.bench.mesh, radius)
 
     def do_tests(self, stop: Stop) -> None:
-        wanted = [name for name in TESTS if name in self.request.tests]
-        first = [FIRST] if self.request.fmu or FIRST in wanted or any(map(self._begins_with_states, wanted)) else []
-        for tests in (first, [name for name in wanted if name != FIRST]):
+        wanted = self._with_first()
+        for tests in ([FIRST] if FIRST in wanted else [], [name for name in wanted if name != FIRST]):
             blocks = []
             for name in tests:
                 self.blocks[name], why = self._build(name)
                 self.tests[name] = {"status": "left out", "reason": why} if why else {"status": "running"}
                 blocks += self.blocks[name]
+            others = at_speeds(self.bench, wanted) if FIRST in tests else []
             if blocks and not stop.asked:
-                self._run(blocks, stop, self.request.quiet)
+                self._run([*blocks, *others], stop, self.request.quiet)
             for name in tests:
                 self._settle(name)
             if FIRST in tests:
-                self.states = states_of(self.rows[FIRST])
+                self.states = states_of(self.rows[FIRST], self._by_speed(others))
+
+    def _by_speed(self, blocks: Sequence[Block]) -> dict[float, tuple[float, float]]:
+        """Height and effective radius of those that are done."""
+        found = {}
+        for block in blocks:
+            if self._is_there(block):
+                state = read_json(self.runs / block.name / RESULTS / "run.json")["steady"]
+                speed = block.points[0].speed
+                found[speed] = (float(state["height"]), float(state["speed"]) / self.bench.spin(speed))
+        return found
+
+    def _with_first(self) -> list[str]:
+        """The tests asked for, and that with which they begin."""
+        asked = [name for name in TESTS if name in self.request.tests]
+        needs = self.request.fmu or any(map(self._begins_with_states, asked))
+        return [FIRST, *asked] if needs and FIRST not in asked else asked
 
     @staticmethod
     def _begins_with_states(name: str) -> bool:
-        return name not in (FIRST, "footprint", "modes")
+        return name not in (FIRST, "modes")
 
     def _build(self, name: str) -> tuple[list[Block], str]:
         """Its blocks, or why there are none."""
@@ -213,8 +245,8 @@ class Rig:
             progress.ended(job)
             block = of[job.name]
             if job.status == "done":
-                self.info.setdefault("blocks", {})[block.name] = block.identity(self.program.build_id, self._mesh)
-            else:
+                replace_text(self.runs / block.name / MADE_OF, self._identity(block))
+            elif job.status == "failed":
                 self.failures[block.name] = job.message
             self._settle(block.test)
 
@@ -277,25 +309,25 @@ class Rig:
         return self._is_there(block) or block.name in self.failures
 
     def write(self) -> None:
-        settings = self.bench.settings
+        settings, found = self.bench.settings, self.known | self.tests
         write_json(self.request.directory / "rig.json", {
             "format": FORMAT, "schema": 1, "title": self.tyre.title, "case": self.tyre.path.name,
             "version": self.program.version, "build_id": self.program.build_id, "quick": self.request.quick,
             "radius": self.bench.radius, "settings": {**settings[TOP], **{k: v for k, v in settings.items() if k != TOP}},
-            "tests": {name: self.tests[name] for name in TESTS if name in self.tests},
-            "blocks": self.info.get("blocks", {}), "sources": self._sources()})
+            "tests": {name: found[name] for name in TESTS if name in found}, "sources": self._sources()})
 
     def plan_text(self) -> str:
         """Tests, points, time and disk."""
-        states = States({})
-        lines, total, points, parts = [], 0.0, 0, 0
-        for name in TESTS:
-            if name not in self.request.tests:
-                continue
-            blocks = TESTS[name].blocks(self.bench, _Flat(states.curves, self.bench.radius))
+        radius = self.bench.radius  # about the height and the effective radius of all states
+        speeds = {speed for test in ("cleat", "road") for speed in self.bench.settings[test]["speeds"]}
+        curve = np.array([[0.0, radius, radius], [np.inf, radius, radius]])
+        states = States({0.0: curve, np.inf: curve}, dict.fromkeys(speeds, (radius, radius)))
+        lines, total, points, parts = [], 0.0, 0, 0.0
+        for name in self._with_first():
+            blocks = TESTS[name].blocks(self.bench, states)
             cost, count = sum(map(self._cost, blocks)), sum(len(block.points) for block in blocks)
             lines.append(f"{name:20}{count:5} points  about {readable_time(cost)} of one core")
-            total, points, parts = total + cost, points + count, parts + sum(block.kind != "sweep" for block in blocks)
+            total, points, parts = total + cost, points + count, parts + sum(0.1 if block.kind == SWEEP else 1.0 for block in blocks)
         at_once = self.request.jobs or processors()
         lines.append(f"{'all':20}{points:5} points  about {readable_time(total / at_once)} on {at_once} cores, "
                      f"{1e-6 * parts * self.disk:.0f} MB")
@@ -305,28 +337,18 @@ class Rig:
         if stop.asked:
             _say(False, "warning: interrupted; the same command goes on")
             return INTERRUPTED
+        from .pages import pages_are_there, write_pages
+        if not pages_are_there(self.request.directory, self.request.against):
+            for path in write_pages(self.request.directory, self.request.against):
+                _say(self.request.quiet, f"info: {path}")
         if self.request.fmu:
             self._make_fmu(stop)
-        from .pages import write_pages
-        for path in write_pages(self.request.directory, self.request.against):
-            _say(self.request.quiet, f"info: {path}")
         failed = [f"{name}: {told.get('failed', 0)} of {told['points']} points failed" for name, told in self.tests.items()
                   if told.get("failed")]
         failed += [f"{name}: left out: {told['reason']}" for name, told in self.tests.items() if told["status"] == "left out"]
         for line in failed:
             _say(False, f"warning: {line}")
         return NUMERICAL if failed else 0
-
-
-class _Flat(States):
-    """Before the wheel was pressed: the height and the effective radius are about the radius."""
-
-    def __init__(self, curves: Any, radius: float) -> None:
-        super().__init__(curves)
-        object.__setattr__(self, "radius", radius)
-
-    def _at(self, pressure: float | None, load: float, column: int) -> float:
-        return float(self.radius)  # type: ignore[attr-defined]
 
 
 def _say(quiet: bool, text: str) -> None:

@@ -7,6 +7,7 @@ from .keys import TABLES, TOP
 from .settings import Settings, Values
 from .tyre import Tyre
 
+SLOWEST = 0.5  # m/s
 FEWEST = 60  # sectors that a footprint needs
 
 
@@ -18,11 +19,14 @@ def nominal(tyre: Tyre, given: Settings, quick: bool) -> Values:
                       "sectors": _coarser(tyre.sectors) if quick else tyre.sectors,
                       "samples_per_sector": min(2, tyre.samples), **top}
     for key, unit, there in (("load", "4000.0", "no analysis.load and no rim.force_y"),
-                             ("speed", "13.7", "no motion.angular_velocity")):
+                             ("speed", "13.7", "no motion.angular_velocity above 0")):
         if key not in values or values[key] is None:
             if key == "speed" and tyre.spin is not None:
                 continue
             raise InputError(f"{tyre.path}: has {there}, and the rig needs it: give {key} = {unit} in a rig file (--rig)")
+    if values["friction"] == 0.0:
+        raise InputError(f"{tyre.path}: has no ground.friction, and without it there is no force over slip: give friction = 0.9 "
+                         "in a rig file (--rig)")
     if tyre.pressure is None and ("pressure" in top or any("pressures" in one for one in given.values())):
         raise InputError(f"{tyre.path}: has no [inflation], and the rig file varies its pressure: leave pressures out")
     return values
@@ -34,6 +38,9 @@ def with_defaults(tyre: Tyre, given: Settings, quick: bool, radius: float) -> Se
     load, pressure = float(top["load"]), top["pressure"]
     if "speed" not in top:
         top["speed"] = _short((tyre.spin or 0.0) * radius)
+    if top["speed"] < SLOWEST:
+        raise InputError(f"{tyre.path}: motion.angular_velocity: {tyre.spin:g} rad/s are {top['speed']:g} m/s, and cleat and road "
+                         f"would take hours (allowed: {SLOWEST} m/s and more; or speed = 13.7 in a rig file, --rig)")
     top.setdefault("loads", _times(load, (0.5, 1.0, 1.5) if quick else (0.5, 0.75, 1.0, 1.5)))
     top.setdefault("pressures", _times(pressure, (0.8, 1.0) if quick else (0.8, 1.0, 1.2)) if pressure else [])
     top.setdefault("cambers_deg", [0.0, 3.0] if quick else [-3.0, 0.0, 3.0])
@@ -42,8 +49,12 @@ def with_defaults(tyre: Tyre, given: Settings, quick: bool, radius: float) -> Se
         settings[name] = defaults | given.get(name, {})
     for values in settings.values():  # tests compare with these
         for key, always in (("pressures", pressure), ("cambers_deg", 0.0)):
-            if key in values and always is not None and always not in values[key]:
-                values[key] = sorted([*values[key], always])
+            if key in values and always is not None:
+                values[key] = _united([values[key], [always]])
+    for key in ("slip_angles_deg", "few_slip_angles_deg"):
+        settings["lateral"][key] = _united([settings["lateral"][key], [0.0]])
+    for key in ("loads", "pressures"):  # other tests begin with its heights and radii
+        settings["vertical"][key] = _united([one[key] for one in settings.values() if key in one] + [[load]] * (key == "loads"))
     return {table: {key.name: settings[table][key.name] for key in keys if settings[table].get(key.name) not in (None, [])}
             for table, keys in TABLES.items()}
 
@@ -53,13 +64,17 @@ def _coarser(sectors: int) -> int:
     return max(min(sectors, FEWEST), sectors // 2)
 
 
+def _united(lists: list[list[float]]) -> list[float]:
+    return sorted({value for one in lists for value in one})
+
+
 def _short(value: float) -> float:
     """To six digits, so that a file that says it is short."""
     return float(f"{value:.6g}")
 
 
 def _times(value: float, factors: tuple[float, ...]) -> list[float]:
-    return [_short(value * factor) for factor in factors]
+    return [value if factor == 1.0 else _short(value * factor) for factor in factors]
 
 
 def _of_tests(top: Values, quick: bool, radius: float) -> Settings:

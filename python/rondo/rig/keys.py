@@ -72,7 +72,7 @@ TABLES: dict[str, tuple[Key, ...]] = {
     "cleat": (_SPEEDS, Key("height", NUMBER, "m", "height of the cleat; its ramps are of 45 degrees, or as flat as the mesh needs", 0.0, 0.1, above=True),
               Key("length", NUMBER, "m", "length of its top along the way", 0.0, 1.0, above=True), _MODES, _DAMPING),
     "modes": (Key("count", COUNT, "1", "modes of the free and of the standing wheel each", 1, 400),),
-    "road": (Key("length", NUMBER, "m", "length of road that is rolled over", 0.0, 1000.0, above=True),
+    "road": (Key("length", NUMBER, "m", "length of road that is rolled over; its first meter is not measured", 2.0, 1000.0),
              Key("roughness", NUMBER, "m3", "displacement spectrum of the road at 0.1 cycles a metre, as in ISO 8608: "
                  "1.6e-5 is the middle of class A, 6.4e-5 of B", 0.0, 0.1, above=True),
              Key("seed", COUNT, "1", "seed of the road", 0, 2**31), _SPEEDS, _MODES, _DAMPING),

@@ -2,6 +2,7 @@
 """What is made of the tables of a rig: tyre.tir, figures, report.html, and a comparison with measurements."""
 from __future__ import annotations
 
+import hashlib
 import pathlib
 import sys
 
@@ -9,9 +10,10 @@ from ..data.errors import Error
 from ..data.files import read_json
 from ..data.rig import Rig, open_rig
 from .against import Comparison, compare
+from .blocks import MADE_OF
 from .figures import draw
 from .fit import write_tir
-from .record import write_json
+from .record import replace_text, write_json
 from .report import write
 
 
@@ -30,9 +32,26 @@ def write_pages(directory: pathlib.Path, measured: pathlib.Path | None = None) -
             trouble = reason
     draw(rig, directory / "figures", against)
     files += [directory / "figures", write(rig, directory / "report.html", against)]
+    replace_text(directory / "figures" / MADE_OF, _identity(directory))
     if trouble is not None:
         raise trouble
     return files
+
+
+def pages_are_there(directory: pathlib.Path, measured: pathlib.Path | None) -> bool:
+    """They were made of these very tables, and without measurements, as they are to be."""
+    if measured is not None or (directory / "against.csv").exists() or not (directory / "report.html").exists():
+        return False
+    try:
+        return (directory / "figures" / MADE_OF).read_text(encoding="utf-8") == _identity(directory)
+    except (OSError, ValueError):
+        return False
+
+
+def _identity(directory: pathlib.Path) -> str:
+    """Of the tables, and of what rig.json says of them."""
+    tables = [directory / "rig.json", *sorted(directory.glob("*.csv"))]
+    return hashlib.sha256(b"\0".join(path.read_bytes() for path in tables)).hexdigest()
 
 
 def _tir(rig: Rig) -> pathlib.Path | None:

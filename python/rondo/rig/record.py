@@ -52,12 +52,15 @@ def write_table(directory: pathlib.Path, test: str, rows: Sequence[Row]) -> str:
 def write_channels(directory: pathlib.Path, test: str, title: str, rows: Sequence[Row]) -> str | None:
     """Its TYDEX file, of the points that are done; None: of a test without forces, or without points."""
     found = [row for row in rows if row["status"] == DONE and not row.get("mirrored")]
+    file = directory / f"{test}.tdx"
     if not TESTS[test].has_forces or not found:
+        file.unlink(missing_ok=True)
         return None
     columns = {name: [row[column] for row in found] for name, column in CHANNELS.items() if found[0][column] is not None}
+    columns["LONGVEL"] = [row["speed"] * math.cos(row["slip_angle"]) for row in found]
     comments = ["Computed states of steady rolling, not measured", title[:70]]
-    write_tydex(directory / f"{test}.tdx", tydex(columns, header={"RELEASE": "1.3", "MEASID": test}, comments=comments))
-    return f"{test}.tdx"
+    write_tydex(file, tydex(columns, header={"RELEASE": "1.3", "MEASID": test}, comments=comments))
+    return file.name
 
 
 def _cell(value: Any) -> str:

@@ -119,13 +119,14 @@ def _relaxation(p: Point, info: Mapping[str, Any], where: str) -> Row:
 # In time
 
 def _of_history(bench: Bench, block: Block, folder: pathlib.Path, where: str) -> Row:
-    """Peaks and rms of the ground's forces from the cleat or the road on; the mean load before them."""
+    """Peaks and rms of the ground's forces from the cleat or the road on; mean and standard deviation before them."""
     run, p = open_run(folder), block.points[0]
     time, along, up = (np.asarray(run.history[name]) for name in ("time_s", "force_x", "force_y"))
     piece, before = time >= measured_from(bench, block), (time >= 0.8 * SETTLING) & (time < SETTLING)
     if piece.sum() < 2:
-        raise Error("the road ends before all of the contact is on it: a longer one (road.length)")
-    row = {**_asked(p), "mean_Fz": float(up[before].mean()), "run": where, "status": DONE, "reason": ""}
+        raise Error("the run ends before all of the contact is on the cleat or the road")
+    row = {**_asked(p), "mean_Fz": float(up[before].mean()), "ripple_Fz": float(up[before].std()),
+           "run": where, "status": DONE, "reason": ""}
     if block.test == "cleat":
         return row | {"peak_to_peak_Fx": float(np.ptp(along[piece])), "peak_to_peak_Fz": float(np.ptp(up[piece]))}
     return row | {"rms_Fx": float(along[piece].std()), "rms_Fz": float(up[piece].std())}

@@ -65,7 +65,8 @@ def _table(prefix: str, keys: tuple[Key, ...], found: Mapping[str, Any], wrong: 
         if name not in known:
             wrong.append(f"{prefix}{name}: no such key (allowed: {_near(name, list(known))})")
         elif not _is_right(known[name], value):
-            wrong.append(f"{prefix}{name} = {_short(value)} (allowed: {known[name].allowed()})")
+            once = ", each once" if known[name].kind == NUMBERS else ""
+            wrong.append(f"{prefix}{name} = {_short(value)} (allowed: {known[name].allowed()}{once})")
         else:
             values[name] = _plain(known[name], value)
     return values

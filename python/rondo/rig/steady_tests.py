@@ -17,7 +17,7 @@ def pressures_of(bench: Bench, test: str) -> list[float | None]:
 
 
 def _name(test: str, pressure: float | None, *more: str) -> str:
-    return "-".join([test, *([f"{pressure / 1e3:g}kPa"] if pressure is not None else []), *more])
+    return "-".join([test, *([f"{pressure / 1e3:.9g}kPa"] if pressure is not None else []), *more])
 
 
 def reference(bench: Bench, spin: float) -> Block:
@@ -34,6 +34,17 @@ def vertical(bench: Bench, states: States) -> list[Block]:
             for p in pressures_of(bench, "vertical")]
 
 
+def at_speeds(bench: Bench, tests: Sequence[str]) -> list[Block]:
+    """States under the nominal load at the other speeds of these tests in time, which begin with their heights."""
+    speeds = {speed for test in ("cleat", "road") if test in tests for speed in bench.settings[test]["speeds"]}
+    blocks = []
+    for speed in sorted(speeds - {bench.top["speed"]}):
+        p = Point(bench.top["load"], bench.pressure, speed)
+        case = steady_case(bench, f"state-{speed:.9g}mps", p.pressure, bench.spin(speed), torque=0.0)
+        blocks.append(Block("state", f"state-{speed:.9g}mps", RUN, case, (p,)))
+    return blocks
+
+
 def footprint(bench: Bench, states: States) -> list[Block]:
     """Runs of their own, which keep their contact patches."""
     own, blocks = bench.settings["footprint"], []
@@ -43,7 +54,7 @@ def footprint(bench: Bench, states: States) -> list[Block]:
             case = steady_case(bench, "footprint", p.pressure, bench.spin(), torque=0.0)
             case["motion"]["camber"] = 0.0 - p.camber
             case["analysis"]["load"] = load
-            blocks.append(Block("footprint", f"footprint-{load:g}N-camber{camber_deg:g}deg", RUN, case, (p,)))
+            blocks.append(Block("footprint", f"footprint-{load:.9g}N-camber{camber_deg:.9g}deg", RUN, case, (p,)))
     return blocks
 
 
@@ -58,7 +69,7 @@ def lateral(bench: Bench, states: States) -> list[Block]:
             angles = own["slip_angles_deg" if p == nominal and camber_deg == 0.0 else "few_slip_angles_deg"]
             points = [Point(load, p, speed, math.radians(camber_deg), math.radians(angle))
                       for load in own["loads"] for angle in angles]
-            blocks.append(steady_block(bench, "lateral", _name("lateral", p, f"camber{camber_deg:g}deg"), points))
+            blocks.append(steady_block(bench, "lateral", _name("lateral", p, f"camber{camber_deg:.9g}deg"), points))
     if (mirrored := bench.tyre.mirrored_cords) is not None:
         points = [Point(load, nominal, speed, extra={"mirrored": 1}) for load in own["loads"]]
         blocks.append(steady_block(bench, "lateral", _name("lateral", nominal, "mirrored"), points, cords=mirrored))
@@ -86,7 +97,7 @@ def longitudinal(bench: Bench, states: States) -> list[Block]:
 
 def combined(bench: Bench, states: States) -> list[Block]:
     own, p = bench.settings["combined"], bench.pressure
-    return [_slipping(bench, states, "combined", f"combined-{load:g}N", [
+    return [_slipping(bench, states, "combined", f"combined-{load:.9g}N", [
         Point(load, p, bench.top["speed"], slip_angle=math.radians(angle), slip_ratio=ratio)
         for angle in own["slip_angles_deg"] for ratio in own["slip_ratios"]]) for load in own["loads"]]
 
@@ -100,7 +111,7 @@ def rolling_resistance(bench: Bench, states: States) -> list[Block]:
         blocks.append(steady_block(bench, "rolling-resistance", _name("rolling-resistance", p), points))
     for speed in own["speeds"]:
         if speed != bench.top["speed"]:
-            blocks.append(steady_block(bench, "rolling-resistance", _name("rolling-resistance", nominal, f"{speed:g}mps"),
+            blocks.append(steady_block(bench, "rolling-resistance", _name("rolling-resistance", nominal, f"{speed:.9g}mps"),
                                        [Point(load, nominal, speed)]))
     return blocks
 
@@ -117,6 +128,6 @@ def relaxation(bench: Bench, states: States) -> list[Block]:
                 case["motion"]["speed"] = bench.spin() * states.effective_radius(p, load)
             else:
                 case["analysis"]["torque"] = 0.0
-            blocks.append(Block("relaxation", f"relaxation-{step}-{load:g}N", RUN, case,
+            blocks.append(Block("relaxation", f"relaxation-{step}-{load:.9g}N", RUN, case,
                                 (Point(load, p, bench.top["speed"], extra={"step": step}),)))
     return blocks

@@ -32,7 +32,7 @@ TESTS: Mapping[str, Test] = {
     "rolling-resistance": Test(steady.rolling_resistance, (*_STEADY, "resistance", "coefficient", "scheme_share", *END)),
     "relaxation": Test(steady.relaxation, ("load", "pressure", "speed", "step", "relaxation_length_63",
                                            "relaxation_length_fit", *END), False),
-    "cleat": Test(in_time.cleat, ("load", "pressure", "speed", "peak_to_peak_Fx", "peak_to_peak_Fz", "mean_Fz", *END), False),
+    "cleat": Test(in_time.cleat, ("load", "pressure", "speed", "peak_to_peak_Fx", "peak_to_peak_Fz", "mean_Fz", "ripple_Fz", *END), False),
     "modes": Test(in_time.modes, ("pressure", "standing", "mode", "frequency", "damping_ratio", "nodal_diameter", *END), False),
-    "road": Test(in_time.road, ("load", "pressure", "speed", "rms_Fx", "rms_Fz", "mean_Fz", *END), False),
+    "road": Test(in_time.road, ("load", "pressure", "speed", "rms_Fx", "rms_Fz", "mean_Fz", "ripple_Fz", *END), False),
 }

@@ -9,13 +9,16 @@ from typing import Any
 
 import numpy as np
 
+from ..data.errors import Error
 from .blocks import FMU, MODES, RUN, Bench, Block, Point, ground_of, steady_case, tyre_case
 from .states import States
 
 LANDING = 0.06        # s, in which the wheel comes down to its height
 SETTLING = 0.15       # s, after which the cleat or the road begins
 AFTER = 0.15          # s, after the cleat
+RISE = 1.0            # m, over which a road comes to its roughness
 SPACING = 0.05        # m, of the points of a road
+WAVES = 400
 LONGEST, SHORTEST = 20.0, 0.2  # m, wave lengths of a road
 INTERVAL = 1e-3       # s, at most: of the history of these tests
 FINEST = 2e-4
@@ -23,7 +26,7 @@ FINEST = 2e-4
 
 def measured_from(bench: Bench, block: Block) -> float:
     """s: all of the contact is at the cleat or on the road."""
-    return SETTLING + (0.0 if block.test == "cleat" else bench.radius / block.points[0].speed)
+    return SETTLING + (0.0 if block.test == "cleat" else (RISE + bench.radius) / block.points[0].speed)
 
 
 def node_distance(bench: Bench) -> float:
@@ -46,24 +49,35 @@ def cleat_profile(at: float, ramp: float, height: float, length: float, end: flo
 
 def road_profile(roughness: float, seed: int, begin: float, length: float) -> list[list[float]]:
     """A road with the displacement spectrum G(n) = roughness (n / n0)^-2, n0 = 0.1 1/m, as sum of cosines with random
-    phases; it begins at 0 and rises to its roughness over a meter."""
-    phases = np.random.default_rng(seed).uniform(0.0, 2.0 * math.pi, 400)
-    n = np.linspace(1.0 / LONGEST, 1.0 / SHORTEST, 400)
-    amplitudes = np.sqrt(2.0 * roughness * (n / 0.1) ** -2 * (n[1] - n[0]))
+    phases; it begins at 0 and comes to its roughness over RISE."""
+    random = np.random.default_rng(seed)
+    phases = random.uniform(0.0, 2.0 * math.pi, WAVES)
+    apart = (1.0 / SHORTEST - 1.0 / LONGEST) / WAVES
+    n = 1.0 / LONGEST + apart * (np.arange(WAVES) + random.uniform(0.0, 1.0, WAVES))  # uneven, so that nothing repeats
+    amplitudes = np.sqrt(2.0 * roughness * (n / 0.1) ** -2 * apart)
     x = np.arange(0.0, length + SPACING, SPACING)
     heights = (amplitudes[:, None] * np.cos(2.0 * math.pi * n[:, None] * x + phases[:, None])).sum(axis=0)
-    heights = (heights - heights[0]) * np.minimum(x, 1.0)
+    heights = (heights - heights[0]) * np.minimum(x / RISE, 1.0)
     points = np.column_stack([x + begin, heights]).round(6).tolist()
     return [[-10.0, 0.0], *points, [begin + length + 100.0, points[-1][1]]]
 
 
+def _held(bench: Bench, states: States, p: Point) -> tuple[float, float]:
+    """Height and effective radius of free rolling at the speed of a point."""
+    if p.speed == bench.top["speed"]:
+        return states.height(p.pressure, p.load), states.effective_radius(p.pressure, p.load)
+    if p.speed not in states.by_speed:
+        raise Error(f"the wheel has no state of free rolling at {p.speed:g} m/s, and this test begins with its height")
+    return states.by_speed[p.speed]
+
+
 def _rolling(bench: Bench, states: States, name: str, p: Point, own: dict[str, Any], profile: Any, end: float) -> Block:
     """Rolls freely at the height that the load has on flat ground; height, speed and spin are held."""
-    height, radius = states.height(p.pressure, p.load), states.effective_radius(p.pressure, p.load)
+    height, radius = _held(bench, states, p)
     case = tyre_case(bench, name, p.pressure)
     case["damping"] = {**case.get("damping", {}), "mass": own["mass_damping"]}
     case["motion"] = {"angular_velocity": bench.spin(p.speed), "speed": bench.spin(p.speed) * radius,
-                      "height": [[0.0, bench.radius + 1e-4], [LANDING, height]]}
+                      "height": [[0.0, 1.01 * bench.radius], [LANDING, height]]}
     case["ground"] = {**ground_of(bench, profile), "fillet": node_distance(bench)}
     case["time"] = {"end": end}
     case["output"] = {"stress": False, "snapshots": 1, "history_interval": max(FINEST, min(INTERVAL, 0.005 / p.speed))}
@@ -79,7 +93,7 @@ def cleat(bench: Bench, states: States) -> list[Block]:
         passed = at + 2.0 * ramp + own["length"] + 0.5 * bench.radius
         end = passed / speed + AFTER
         profile = cleat_profile(at, ramp, own["height"], own["length"], 2.0 * passed + speed)
-        blocks.append(_rolling(bench, states, f"cleat-{speed:g}mps", p, own, profile, end))
+        blocks.append(_rolling(bench, states, f"cleat-{speed:.9g}mps", p, own, profile, end))
     return blocks
 
 
@@ -89,7 +103,7 @@ def road(bench: Bench, states: States) -> list[Block]:
         p = Point(bench.top["load"], bench.pressure, speed)
         begin = speed * SETTLING + 0.5 * bench.radius
         profile = road_profile(own["roughness"], own["seed"], begin, own["length"])
-        blocks.append(_rolling(bench, states, f"road-{speed:g}mps", p, own, profile, (begin + own["length"]) / speed))
+        blocks.append(_rolling(bench, states, f"road-{speed:.9g}mps", p, own, profile, (begin + own["length"]) / speed))
     return blocks
 
 

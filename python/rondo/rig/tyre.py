@@ -28,10 +28,9 @@ class Tyre:
     def load(self) -> float | None:
         """N: of the analysis, or the last of the table of the rim."""
         found = self.case.get("analysis", {}).get("load")
-        if found is None:
-            found = _last(self.case.get("rim", {}).get("force_y"))
-            found = -found if found is not None else None
-        return float(found) if found and found > 0.0 else None
+        if not isinstance(found, (int, float)):
+            found = -(_last(self.case.get("rim", {}).get("force_y")) or 0.0)
+        return float(found) if found > 0.0 else None
 
     @property
     def pressure(self) -> float | None:
@@ -83,6 +82,10 @@ def read_tyre(path: pathlib.Path) -> Tyre:
         raise InputError(f"{path}: section.file: is missing (allowed: a mesh of the section, docs/tyre.md)")
     if "sectors" not in case.get("section", {"sectors": 1}):
         raise InputError(f"{path}: section.sectors: is missing: the rig tests wheels that are swept around the axle")
+    disk = case.get("disk", {})
+    if "tread" in disk or "section" not in case and "circumferential" not in disk.get("mesh", {}):
+        raise InputError(f"{path}: disk.tread and meshes by pitches: the rig tests wheels that are the same around the axle "
+                         "(allowed: a disk with disk.mesh.circumferential and without disk.tread, or a [section])")
     return Tyre(path, text, case)
 
 
