@@ -35,7 +35,8 @@ from .tyre import Tyre, read_tyre
 GUESS = 0.3      # m: the radius by which a speed of a rig file is a spin, until the reference tells the radius
 FIRST = "vertical"  # the test that others begin with
 # Seconds of a block beside its points, and of a point, in those of a point of the reference.
-SETUP, STEADY, STEP, IN_TIME, MODES = 4.0, 1.0, 8.0, 20.0, 25.0
+SETUP, STEADY, STEP, IN_TIME, MODES = 12.0, 3.0, 90.0, 80.0, 60.0
+PAGES = 35.0  # s, of fit, figures and report
 
 
 @dataclass(frozen=True)
@@ -329,8 +330,8 @@ class Rig:
             lines.append(f"{name:20}{count:5} points  about {readable_time(cost)} of one core")
             total, points, parts = total + cost, points + count, parts + sum(0.1 if block.kind == SWEEP else 1.0 for block in blocks)
         at_once = self.request.jobs or processors()
-        lines.append(f"{'all':20}{points:5} points  about {readable_time(total / at_once)} on {at_once} cores, "
-                     f"{1e-6 * parts * self.disk:.0f} MB")
+        lines.append(f"{'all':20}{points:5} points  about {readable_time(total / at_once + PAGES)} on {at_once} cores, with "
+                     f"the report; {1e-6 * parts * self.disk:.0f} MB")
         return "\n".join(lines) + "\n"
 
     def end(self, stop: Stop) -> int:

@@ -111,6 +111,8 @@ def _nominal(rig: Rig, rows: Rows) -> dict[str, float]:
     forces = rows.where(np.isin(rows.tests, [name for name, channels in CHANNELS_OF.items() if channels is FORCES]))
     known = {key: nominal(rig, name, forces.inputs[name]) for key, name in (("FNOMIN", "load"), ("NOMPRES", "pressure"),
                                                                 ("LONGVL", "speed"))}
+    if isinstance(said := rig.settings.get("load"), (int, float)):
+        known["FNOMIN"] = float(said)  # also where no point has it
     known = {key: value for key, value in known.items() if np.isfinite(value) and value > 0}
     return {"LONGVL": DEFAULT_SPEED, **known, **sizes_of(rig)}
 

@@ -42,6 +42,8 @@ def rows_of(rig: Rig, tests: Iterable[str] = tuple(CHANNELS_OF)) -> Rows:
     parts, names = [], []
     for test in tests:
         found = points(rig, test, (*INPUTS, *CHANNELS))
+        if test == "lateral":  # rolls freely, which counts as no slip ratio
+            found["slip_ratio"] = np.zeros_like(found["slip_ratio"])
         for name in set(CHANNELS) - set(CHANNELS_OF[test]):
             found[name] = np.full_like(found[name], np.nan)
         parts.append(found)

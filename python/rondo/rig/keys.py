@@ -37,8 +37,9 @@ def _ratios(name: str, meaning: str) -> Key:
 
 
 TOP = "at the top"
-_LOADS = Key("loads", NUMBERS, "N", "loads of the ground on the wheel", 0.0, above=True)
-_PRESSURES = Key("pressures", NUMBERS, "Pa", "pressures of the air, the nominal one among them", 0.0, above=True)
+LEAST_LOAD, LEAST_PRESSURE = 20.0, 1e4  # N, Pa: less is taken for kN and bar
+_LOADS = Key("loads", NUMBERS, "N", "loads of the ground on the wheel", LEAST_LOAD)
+_PRESSURES = Key("pressures", NUMBERS, "Pa", "pressures of the air; the nominal one is added", LEAST_PRESSURE)
 _CAMBERS = _angles("cambers_deg", "inclination angles of ISO 8855: > 0 leans the top of the wheel to the right")
 _ANGLES = _angles("slip_angles_deg", "slip angles of ISO 8855: > 0 moves the wheel to the left of its heading")
 _RATIOS = _ratios("slip_ratios", "slip ratios of ISO 8855: < 0 brakes")
@@ -49,8 +50,8 @@ _DAMPING = Key("mass_damping", NUMBER, "1/s", "damping.mass of these runs: 25 is
 TABLES: dict[str, tuple[Key, ...]] = {
     TOP: (
         Key("schema", COUNT, "1", "version of the format of rig files", 1, 1),
-        Key("load", NUMBER, "N", "nominal load, of tests with one load", 0.0, above=True),
-        Key("pressure", NUMBER, "Pa", "nominal pressure of the air", 0.0, above=True),
+        Key("load", NUMBER, "N", "nominal load, of tests with one load", LEAST_LOAD),
+        Key("pressure", NUMBER, "Pa", "nominal pressure of the air", LEAST_PRESSURE),
         Key("speed", NUMBER, "m/s", "the wheel turns at this speed over its unloaded radius", 0.0, above=True),
         Key("friction", NUMBER, "1", "coefficient of friction, in place of that of the case", 0.0, above=True),
         Key("sectors", COUNT, "1", "columns of elements around the wheel", 12, 2000),

@@ -17,6 +17,9 @@ from .record import replace_text, write_json
 from .report import write
 
 
+ROUGH = 0.1  # of the largest force or moment
+
+
 def write_pages(directory: pathlib.Path, measured: pathlib.Path | None = None) -> list[pathlib.Path]:
     """The files that were written. Where the points do not suffice for tyre.tir, a warning and the report say so.
     @raise Error: of the measurements, when all else is written."""
@@ -57,11 +60,15 @@ def _identity(directory: pathlib.Path) -> str:
 def _tir(rig: Rig) -> pathlib.Path | None:
     path = rig.directory / "tyre.tir"
     try:
-        write_tir(rig, path)
+        residuals = write_tir(rig, path)
     except Error as reason:
         path.unlink(missing_ok=True)
         print(f"rondo: warning: no tyre.tir: {reason}", file=sys.stderr)
         return None
+    for channel in ("Fx", "Fy", "Mz"):
+        if channel in residuals and residuals[channel]["of_largest"] > ROUGH:
+            print(f"rondo: warning: tyre.tir: {channel} is met to {100.0 * residuals[channel]['of_largest']:.0f} % of its largest "
+                  "only; its first lines say why: more slips, slip angles and loads", file=sys.stderr)
     return path
 
 

@@ -101,7 +101,7 @@ def _row(bench: Bench, states: States | None, p: Point, found: Mapping[str, Any]
         "contact_width": found.get("footprint_width_m"), "contact_area": found.get("contact_area_m2"),
         "mean_pressure": found.get("pressure_mean_pa"),
         **{name: float(getattr(tyre, name)) for name in ("Fx", "Fy", "Fz", "Mx", "My", "Mz")},
-        "cornering_stiffness": found.get("cornering_stiffness"), "resistance": found.get("rolling_resistance"),
+        "cornering_stiffness": found.get("cornering_stiffness"), "mirrored": p.extra.get("mirrored", 0), "resistance": found.get("rolling_resistance"),
         "coefficient": 1e3 * float(found["rolling_resistance"]) / p.load, "scheme_share": found.get("scheme_share"),
         "run": where, "status": DONE, "reason": ""}
 

@@ -35,10 +35,12 @@ def draw(given: Given) -> Iterator[Drawn]:
         percent, ratio = scaled(SLIP_RATIO, here["slip_ratio"])
         for ax in (left, right):
             cross(ax)
+        has_fit = False
         for k, angle in enumerate(angles):
             one = chosen(here, np.isclose(here["slip_angle"], angle, atol=1e-9))
             state = {"load": float(load), "pressure": pressure, "camber": 0.0, "slip_angle": angle}
             x, y = (fitted_curve(given, state, "slip_ratio", one["slip_ratio"], name) for name in ("Fx", "Fy"))
+            has_fit |= x is not None
             curve(left, k, along[0] * one["Fx"], factor * one["Fy"],
                   None if x is None or y is None else (along[0] * x[1], factor * y[1]), order=one["slip_ratio"])
             curve(right, k, percent * one["slip_ratio"], along[0] * one["Fx"],
@@ -50,7 +52,7 @@ def draw(given: Given) -> Iterator[Drawn]:
             measured(left, along[0] * states["Fx"], factor * states["Fy"])
         left.set(xlabel=along[1], ylabel=across, aspect="equal")
         right.set(xlabel=ratio, ylabel=along[1])
-        legend(figure, [said("slip_angle", angle) for angle in angles], given.tir is not None, states is not None)
+        legend(figure, [said("slip_angle", angle) for angle in angles], has_fit, states is not None)
         circle = f"; the circle is friction, {friction:g}, times the load" if friction else ""
         yield Drawn("combined", f"combined-{load / 1e3:g}kN", "Lateral over longitudinal force, and longitudinal force over "
                     f"the slip ratio, by slip angle, at {said('load', load)}, {said('pressure', pressure)}{circle}. {AXES}.",

@@ -45,7 +45,7 @@ def _family(given: Given, test: str, along: Channel, channels: Sequence[Channel]
     if by != "load" and len(values) < 2 or not any(np.isfinite(here[channel.name]).any() for channel in channels):
         return
     figure, axes = panels(len(channels), narrow=len(channels) == 1)
-    has_measured = False
+    has_fit = has_measured = False
     for ax, channel in zip(axes, channels):
         factor_x, label_x = scaled(along, here[along.name])
         factor_y, label_y = scaled(channel, here[channel.name])
@@ -53,6 +53,7 @@ def _family(given: Given, test: str, along: Channel, channels: Sequence[Channel]
         for k, value in enumerate(values):
             one = chosen(here, _at(here, {by: value}))
             smooth = fitted_curve(given, {**rest, by: value}, along.name, one[along.name], channel.name)
+            has_fit |= smooth is not None
             curve(ax, k, factor_x * one[along.name], factor_y * one[channel.name],
                   None if smooth is None else (factor_x * smooth[0], factor_y * smooth[1]))
         states = rows_near(given.against, test, rest)
@@ -60,7 +61,7 @@ def _family(given: Given, test: str, along: Channel, channels: Sequence[Channel]
             measured(ax, factor_x * states[along.name], factor_y * states[channel.name])
             has_measured = True
         ax.set(xlabel=label_x, ylabel=label_y)
-    legend(figure, [said(by, value) for value in values], given.tir is not None, has_measured)
+    legend(figure, [said(by, value) for value in values], has_fit, has_measured)
     at = ", ".join(said(key, value) for key, value in rest.items() if np.isfinite(value))
     yield Drawn(test, f"{test}-{name}", f"{words}, by {NAMES[by]}, at {at}. {AXES}.", figure)
 
