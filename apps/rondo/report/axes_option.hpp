@@ -19,7 +19,7 @@ void add_axes(CLI::App& command, std::string& axes);
 /// What can be known before the run starts. @param axes  empty: nothing is asked for
 /// @throws InputError: forces of this case have no other axes; FileError: there is no Python
 void demand_axes(const study::Case& c, const std::string& axes);
-/// Likewise of a sweep, which then refuses members whose forces have no other axes.
+/// Does this for a sweep, and makes the sweep refuse members whose forces have no other axes.
 void demand_axes(SweepArguments& arguments);
 
 /// The table of a run or a sweep that has ended. @param code  its exit code

@@ -102,7 +102,8 @@ class Rig:
         self.tests: dict[str, dict[str, Any]] = {}
         self.failures: dict[str, str] = {}  # of commands, by block
         self.states: States | None = None
-        self.point_s = 0.0
+        self.point_s = 0.0  # of the solver, for a point of the reference
+        self.disk = 0       # bytes of its results
         self._mesh, mesh_name = self._read_mesh()
         top = nominal(self.tyre, self.given, request.quick)
         self.bench = Bench(self.tyre, {TOP: top}, mesh_name)
@@ -261,7 +262,7 @@ class Rig:
         folder = self.runs / block.name
 
         def accepts(code: int) -> str | None:
-            if code != NUMERICAL or block.kind != "sweep" or not (folder / RESULTS / "sweep.json").exists():
+            if code != NUMERICAL or block.kind != SWEEP or not (folder / RESULTS / "sweep.json").exists():
                 return None
             return "some points failed"
 

@@ -83,7 +83,7 @@ const char* side(int sense) noexcept {  // of +z, to the right
   return sense == positive ? "right" : "left";
 }
 
-/// Of the slip angle, at a wheel that travels ahead, backwards, or both.
+/// Says to which side the slip angle pushes a wheel that travels ahead, backwards, or both in turn.
 std::string slip_angle_words(const Case& c, int travel) {
   if (travel == none) return "the wheel does not travel, so that a slip angle does not push it";
   const Table& angle = c.motion.slip_angle;
