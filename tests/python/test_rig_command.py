@@ -50,6 +50,8 @@ def test_signs_and_trends(done):
     drive, = columns(found, "longitudinal", "Fx", slip_ratio=0.03, load=4000.0)
     brake, = columns(found, "longitudinal", "Fx", slip_ratio=-0.03, load=4000.0)
     assert drive[0] > 0 > brake[0]
+    asked = [-0.1, -0.03, -0.01, 0.01, 0.03, 0.1]
+    assert found.tests["longitudinal"].table["slip_ratio"][:6] == pytest.approx(asked)
     merits = found.figures["lateral"]
     stiffness = [one["value"] for one in merits["cornering_stiffness"]]
     trail = [one["value"] for one in merits["pneumatic_trail"]]
