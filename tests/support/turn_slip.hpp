@@ -66,7 +66,10 @@ inline SpinCreep creep_of(const HalfSpaces& of, double load) {
   d.speed = 2.0 * of.rolling / of.elements;
   d.friction = 1e4;
   d.load = load;
-  const statics::RollingSlopes s = rolled(half_spaces(of), d, depth).slopes;
+  const statics::RollingProblem<3> problem = half_spaces(of);
+  statics::RollingState rolling = rolled(problem, d, depth);
+  add_slopes(problem, d, rolling);
+  const statics::RollingSlopes& s = rolling.slopes;
   const double area = of.rolling * of.across, unit = of.shear_modulus * area;
   return {-s.by_slip_angle.forces.lateral / unit,
           s.by_turn_slip.forces.lateral / (unit * std::sqrt(area)),

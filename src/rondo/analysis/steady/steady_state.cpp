@@ -132,16 +132,21 @@ void SteadyState<3>::linearise(statics::RollingWindow<3>& other) const {
   other.foresee(solution_.force, Eigen::MatrixXd::Zero(u_.rows(), u_.cols()));
 }
 
-/// By the same state with the other difference; of one that is not linear by its tangent.
+/// By the same state with the other difference, in space from the state itself; of one that is not
+/// linear by its tangent. With a table of friction, which may have several states, anew.
 template <int D>
 void SteadyState<D>::estimate_slip_error() {
   using statics::SlipDifference;
   const bool is_upwind = slip_of(case_) == SlipDifference::upwind;
   statics::RollingWindow<D> other =
       body_.window_of(case_, is_upwind ? SlipDifference::bdf2 : SlipDifference::upwind);
-  if (finite_) linearise(other);
+  const bool is_near = finite_ || (D == 3 && !law_);
+  if (finite_)
+    linearise(other);
+  else if (is_near)
+    other.include(window_.pairs());
   const statics::RollingSolution found =
-      finite_ ? statics::solve_rolling_from(other, drive_, solution_) : solved(other);
+      is_near ? statics::solve_rolling_from(other, drive_, solution_) : solved(other);
   if (found.end != statics::RollingEnd::solved) return;
   slip_error_ = is_upwind ? slip_error_of(solution_.forces, found.forces)
                           : slip_error_of(found.forces, solution_.forces);

@@ -129,6 +129,8 @@ RollingSolution grow(RollingWindow<D>& window, const RollingDrive& drive, Rollin
     // more.
     const bool may_grow = state.solved() || ++unsolved < 2;
     if (may_grow && window.include_touching(state.point.height, state.point.force)) continue;
+    if constexpr (D == 3)
+      if (!drive.law) add_slopes(window.problem(), drive, state);
     fill(window.problem(), state, s);
     if (state.solved() && brings(drive, s))
       s.end = RollingEnd::solved;

@@ -106,5 +106,7 @@ template Eigen::VectorXd spread(const RollingGroups<3>&, const Eigen::VectorXd&)
 template Eigen::VectorXd gathered(const RollingGroups<3>&, const Eigen::VectorXd&);
 template std::vector<PairFriction> gathered(const RollingGroups<2>&,
                                             const std::vector<PairFriction>&);
+template std::vector<PairFriction> gathered(const RollingGroups<3>&,
+                                            const std::vector<PairFriction>&);
 
 }  // namespace rondo::statics

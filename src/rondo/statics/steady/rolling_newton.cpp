@@ -28,8 +28,9 @@ double most_work(const RollingProblem<D>& problem, const RollingEffort& effort) 
                   most_systems * 2.0 / 3.0 * std::pow(static_cast<double>(problem.size()), 3));
 }
 
-/// In space from the forces of a state that is solved; where they are not near enough, and in the
-/// plane, from where the law begins.
+/// In space from the forces of a state that is solved; where they are not near enough, from the
+/// solution on groups of pairs; where that does not lead to one, and in the plane, from where the
+/// law begins.
 template <int D>
 void attempt(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& s) {
   if (D == 3 && s.solved()) {
@@ -43,7 +44,18 @@ void attempt(const RollingProblem<D>& problem, const RollingDrive& drive, Rollin
     }
   }
   begin(problem, drive, s);
-  if (s.touches) newton(problem, drive, s);
+  if (!s.touches) return;
+  if constexpr (D == 3) {
+    RollingState coarse = s;
+    const bool has_start = refine(problem, drive, coarse);
+    if (has_start) newton(problem, drive, coarse);
+    s.effort = coarse.effort;
+    if (has_start && coarse.solved()) {
+      s = std::move(coarse);
+      return;
+    }
+  }
+  newton(problem, drive, s);
 }
 
 /// With height and speed as they are.
@@ -90,6 +102,7 @@ void find_drive(const RollingProblem<D>& problem, const RollingDrive& drive, Rol
     fixed.height = trial.point.height = at[0];
     fixed.speed = trial.point.speed = at[1];
     solve_at(problem, fixed, trial);
+    if constexpr (D == 3) add_slopes(problem, fixed, trial);
     const Miss miss = trial.solved() ? miss_of(problem, drive, trial) : Miss{};
     const double distance = miss.left.norm();
     if (trial.solved() && distance < nearest) {

@@ -45,7 +45,7 @@ struct RollingState {
   RollingStatuses statuses{};  ///< (pairs)
   /// Residual of the law, relative (6.4d); infinite: nothing was solved yet [-]
   double residual = std::numeric_limits<double>::infinity();
-  RollingSlopes slopes{};  ///< of what is solved
+  RollingSlopes slopes{};  ///< of what is solved; in space once add_slopes() finds them
   bool touches = true;     ///< false: nothing is closed
   RollingEffort effort{};
   std::vector<PairFriction> pairs{};  ///< (pairs) by the law of friction; empty: factors of 1
@@ -67,5 +67,9 @@ template <int D>
 template <int D>
 void solve_rolling(const RollingProblem<D>& problem, const RollingDrive& drive,
                    RollingState& state);
+
+/// Finds the slopes of a solved state in space, which takes as long as some steps of Newton's
+/// method. A state that is not solved has none.
+void add_slopes(const RollingProblem<3>& problem, const RollingDrive& drive, RollingState& state);
 
 }  // namespace rondo::statics

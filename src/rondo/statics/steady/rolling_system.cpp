@@ -59,18 +59,21 @@ RollingStatuses statuses_of(const RollingProblem<D>& problem, const RollingPoint
 
 template <int D>
 RollingSystem<D>::RollingSystem(const RollingProblem<D>& problem, const RollingDrive& drive,
-                                const RollingStatuses& statuses, const RollingPoint& around)
+                                const RollingStatuses& statuses, const RollingPoint& around,
+                                NearFactors* near)
     : problem_(problem),
       drive_(drive),
       statuses_(statuses),
-      scale_(1.0 / stiffness_of(problem).across) {
+      scale_(1.0 / stiffness_of(problem).across),
+      around_(around),
+      near_(near) {
   number();
   const Index size = n_forces_ + (has_height() ? 1 : 0) + (has_speed() ? 1 : 0);
   matrix_ = Eigen::MatrixXd::Zero(size, size);
   right_ = VectorXd::Zero(size);
   fill(around);
   add_border(around);
-  factorise();
+  if (near_) name_rows();
 }
 
 template <int D>
@@ -92,10 +95,11 @@ NodeMatrix<D - 1> RollingSystem<D>::turning(Index pair) const noexcept {
 /// How the row of a sliding pair depends on its way, over the row of a sticking one: by the turn of
 /// its direction, and by the slip speed that its coefficient depends on.
 template <int D>
-NodeMatrix<D - 1> RollingSystem<D>::by_way(const Pair& p) const noexcept {
-  if (p.friction.by_way == 0.0) return turning(p.pair);
-  const NodeVector<D - 1> e = direction(p.pair);
-  return turning(p.pair) + scale_ * p.friction.by_way * e * e.transpose();
+NodeMatrix<D - 1> RollingSystem<D>::by_way(Index pair,
+                                           const PairFriction& friction) const noexcept {
+  if (friction.by_way == 0.0) return turning(pair);
+  const NodeVector<D - 1> e = direction(pair);
+  return turning(pair) + scale_ * friction.by_way * e * e.transpose();
 }
 
 /// The shear of a pair that slides follows from its normal force in the plane, where its direction
@@ -111,7 +115,7 @@ void RollingSystem<D>::number() {
     const bool is_linearised = friction.by_normal != 0.0 || friction.by_way != 0.0;
     const bool follows = coefficient == 0.0 || (D == 2 && !sticks && !is_linearised);
     const double edge = follows ? coefficient * direction(j)[0] : 0.0;
-    closed_.push_back({j, n_forces_, follows ? 1 : D, sticks, edge, friction});
+    closed_.push_back({j, n_forces_, follows ? 1 : D, sticks, edge, friction, by_way(j, friction)});
     n_forces_ += closed_.back().unknowns;
   }
 }
@@ -123,7 +127,7 @@ void RollingSystem<D>::reduce(const Moved& moved, Eigen::Ref<VectorXd> rows) con
     rows[p.at] = moved.coeff(D * p.pair);
     if (p.unknowns == 1) continue;
     const NodeVector<D - 1> way = moved.template segment<D - 1>(D * p.pair + 1);
-    rows.template segment<D - 1>(p.at + 1) = p.sticks ? way : NodeVector<D - 1>(by_way(p) * way);
+    rows.template segment<D - 1>(p.at + 1) = p.sticks ? way : NodeVector<D - 1>(p.by_way * way);
   }
 }
 
@@ -258,6 +262,7 @@ void RollingSystem<D>::add_border(const RollingPoint& around) {
 
 template <int D>
 void RollingSystem<D>::factorise() {
+  is_factorised_ = true;
   const auto n = static_cast<lapack_int>(matrix_.rows());
   pivots_.resize(static_cast<std::size_t>(n));
   singular_ = LAPACKE_dgetrf_work(LAPACK_COL_MAJOR, n, n, matrix_.data(), n, pivots_.data()) != 0;
@@ -268,9 +273,42 @@ double RollingSystem<D>::work() const noexcept {
   return 2.0 / 3.0 * std::pow(static_cast<double>(matrix_.rows()), 3);
 }
 
+/// An unknown of pair j has a number from D j on; height and speed are the first two.
+template <int D>
+void RollingSystem<D>::name_rows() {
+  for (const Pair& p : closed_)
+    for (Index c = 0; c < p.unknowns; ++c) names_.push_back(2 + D * p.pair + c);
+  if (has_height()) names_.push_back(0);
+  if (has_speed()) names_.push_back(1);
+  weights_ = VectorXd::Ones(matrix_.rows());
+  for (Index row = n_forces_; row < matrix_.rows(); ++row)
+    weights_[row] = scale_ / matrix_.row(row).cwiseAbs().maxCoeff();
+}
+
+template <int D>
+VectorXd RollingSystem<D>::unknowns_of(const RollingPoint& point) const {
+  VectorXd unknowns = VectorXd::Zero(right_.size());
+  if (point.force.size() == problem_.size())
+    for (const Pair& p : closed_)
+      unknowns.segment(p.at, p.unknowns) = point.force.segment(D * p.pair, p.unknowns);
+  if (has_height()) unknowns[of_height()] = point.height;
+  if (has_speed()) unknowns[of_speed()] = point.speed;
+  return unknowns;
+}
+
+template <int D>
+VectorXd RollingSystem<D>::solved(const VectorXd& right) {
+  return solved(right, VectorXd::Zero(right.size()));
+}
+
 /// Not finite: the system is singular.
 template <int D>
-VectorXd RollingSystem<D>::solved(VectorXd right) const {
+VectorXd RollingSystem<D>::solved(VectorXd right, const VectorXd& from) {
+  if (near_) {
+    if (auto found = near_->solve({matrix_, names_, weights_}, right, from)) return *found;
+    near_ = nullptr;
+  }
+  if (!is_factorised_) factorise();
   const auto n = static_cast<lapack_int>(matrix_.rows());
   if (singular_)
     right.setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -299,14 +337,13 @@ RollingPoint RollingSystem<D>::point_of(const VectorXd& unknowns, double height,
 }
 
 template <int D>
-RollingPoint RollingSystem<D>::solve() const {
-  return point_of(solved(right_), drive_.height, drive_.speed);
+RollingPoint RollingSystem<D>::solve() {
+  return point_of(solved(right_, unknowns_of(around_)), drive_.height, drive_.speed);
 }
 
 /// How the solution changes with μ alone.
 template <int D>
-RollingPoint RollingSystem<D>::by_friction(const RollingPoint& around,
-                                           const TorqueChange& torque) const {
+RollingPoint RollingSystem<D>::by_friction(const RollingPoint& around, const TorqueChange& torque) {
   const auto shear = [&](const Pair& p) -> NodeVector<D - 1> {
     return p.friction.factor * around.force[D * p.pair] * direction(p.pair);
   };
@@ -327,7 +364,7 @@ RollingPoint RollingSystem<D>::by_friction(const RollingPoint& around,
 }
 
 template <int D>
-RollingSlopes RollingSystem<D>::slopes(const RollingPoint& around) const {
+RollingSlopes RollingSystem<D>::slopes(const RollingPoint& around) {
   const TorqueChange torque = torque_change(problem_, around);
   const auto slope = [&](const RollingPoint& change) {
     return RollingSlope{forces_change(problem_, around, torque, change), change.height,

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rondo/contact/law.hpp"
+#include "rondo/statics/steady/near_factors.hpp"
 #include "rondo/statics/steady/rolling_problem.hpp"
 
 namespace rondo::statics {
@@ -58,15 +59,20 @@ class RollingSystem {
  public:
   /// @param around what is not linear is taken at: the torque, with a turn slip the ways, by speed
   /// times places, and coefficients that depend on slip and pressure. All must outlive it.
+  /// @param near factors of a system that is like this one, or none yet, to solve with; null: by
+  /// its own in double precision, as where those do not serve
   RollingSystem(const RollingProblem<D>& problem, const RollingDrive& drive,
-                const RollingStatuses& statuses, const RollingPoint& around);
+                const RollingStatuses& statuses, const RollingPoint& around,
+                NearFactors* near = nullptr);
 
-  /// What its making takes, roughly, in floating-point operations.
+  /// What factors of its own take, roughly, in floating-point operations.
   [[nodiscard]] double work() const noexcept;
   /// Not finite where there is no solution.
-  [[nodiscard]] RollingPoint solve() const;
+  [[nodiscard]] RollingPoint solve();
+  /// Whether what was solved is as exact as by factors of its own.
+  [[nodiscard]] bool is_exact() const noexcept { return is_factorised_ || near_->is_exact(); }
   /// @param around the solution
-  [[nodiscard]] RollingSlopes slopes(const RollingPoint& around) const;
+  [[nodiscard]] RollingSlopes slopes(const RollingPoint& around);
 
  private:
   struct Pair {
@@ -75,6 +81,7 @@ class RollingSystem {
     bool sticks;
     double edge;  ///< that shear over the normal force, along t1: 0 in space, where it is 0
     PairFriction friction;
+    NodeMatrix<D - 1> by_way;  ///< of the row of what slides: how it depends on the way
   };
   [[nodiscard]] bool has_height() const noexcept { return drive_.load.has_value(); }
   [[nodiscard]] bool has_speed() const noexcept { return drive_.traction || drive_.torque; }
@@ -84,7 +91,8 @@ class RollingSystem {
   }
   [[nodiscard]] NodeVector<D - 1> direction(Eigen::Index pair) const noexcept;
   [[nodiscard]] NodeMatrix<D - 1> turning(Eigen::Index pair) const noexcept;
-  [[nodiscard]] NodeMatrix<D - 1> by_way(const Pair& pair) const noexcept;
+  [[nodiscard]] NodeMatrix<D - 1> by_way(Eigen::Index pair,
+                                         const PairFriction& friction) const noexcept;
   void number();
   void fill(const RollingPoint& around);
   void add_edges();
@@ -92,6 +100,8 @@ class RollingSystem {
   void add_border(const RollingPoint& around);
   void add_sum(Eigen::Index row, const Eigen::VectorXd& by_force);
   void factorise();
+  void name_rows();
+  [[nodiscard]] Eigen::VectorXd unknowns_of(const RollingPoint& point) const;
   /// Rows of the system by what changes gaps and ways, (D pairs).
   template <class Moved>
   void reduce(const Moved& moved, Eigen::Ref<Eigen::VectorXd> rows) const;
@@ -99,11 +109,11 @@ class RollingSystem {
   [[nodiscard]] Eigen::VectorXd yawing(const RollingPoint& around) const;
   [[nodiscard]] Eigen::VectorXd by_speed(const RollingPoint& around) const;
   [[nodiscard]] Eigen::VectorXd expand(const Eigen::VectorXd& part) const;
-  [[nodiscard]] Eigen::VectorXd solved(Eigen::VectorXd right) const;
+  [[nodiscard]] Eigen::VectorXd solved(Eigen::VectorXd right, const Eigen::VectorXd& from);
+  [[nodiscard]] Eigen::VectorXd solved(const Eigen::VectorXd& right);
   [[nodiscard]] RollingPoint point_of(const Eigen::VectorXd& unknowns, double height,
                                       double speed) const;
-  [[nodiscard]] RollingPoint by_friction(const RollingPoint& around,
-                                         const TorqueChange& torque) const;
+  [[nodiscard]] RollingPoint by_friction(const RollingPoint& around, const TorqueChange& torque);
 
   const RollingProblem<D>& problem_;
   const RollingDrive& drive_;
@@ -111,7 +121,12 @@ class RollingSystem {
   double scale_;  ///< of sliding pairs' rows in space: forces to ways                         [m/N]
   std::vector<Pair> closed_;
   Eigen::Index n_forces_ = 0;
-  Eigen::MatrixXd matrix_;  ///< its factors, once it is factorised
+  const RollingPoint& around_;
+  NearFactors* near_;                ///< null: it has, or will have, factors of its own
+  std::vector<Eigen::Index> names_;  ///< of unknowns, for factors that are near
+  Eigen::VectorXd weights_;          ///< of rows, for these
+  Eigen::MatrixXd matrix_;           ///< its own factors, once it is factorised
+  bool is_factorised_ = false;
   Eigen::VectorXd right_;
   std::vector<int> pivots_;
   bool singular_ = false;

@@ -14,7 +14,13 @@ namespace rondo::statics {
 template <int D>
 void begin(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& state);
 
-/// Newton's method; slopes too, if it ends in a solution.
+/// In space: what sticks and slides, and where to, by the solution on groups of pairs with
+/// friction.
+/// @param state as begin() left it @return whether there is one
+[[nodiscard]] bool refine(const RollingProblem<3>& problem, const RollingDrive& drive,
+                          RollingState& state);
+
+/// Newton's method; in the plane slopes too, if it ends in a solution.
 template <int D>
 void newton(const RollingProblem<D>& problem, const RollingDrive& drive, RollingState& state);
 inline constexpr int most_newton_steps = 60;

@@ -69,7 +69,7 @@ void pivot(const PlaneProblem& problem, const RollingDrive& drive, RollingState&
   other.statuses = pivoted_statuses(z, drive.coefficients());
   other.touches = !all_open(other.statuses);
   if (other.touches) {
-    const RollingSystem<2> system(problem, drive, other.statuses, s.point);
+    RollingSystem<2> system(problem, drive, other.statuses, s.point);
     other.point = system.solve();
     other.slopes = system.slopes(other.point);
   }
@@ -142,7 +142,7 @@ void newton(const RollingProblem<2>& problem, const RollingDrive& drive, Rolling
     s.touches = !all_open(s.statuses);
     if (!s.touches) return;
     const RollingPoint before = s.point;
-    const RollingSystem<2> system(problem, drive, s.statuses, before);
+    RollingSystem<2> system(problem, drive, s.statuses, before);
     s.effort.work += system.work();
     s.point = system.solve();
     const VectorXd moved = gaps_and_ways(problem, s.point, {});

@@ -24,6 +24,7 @@ constexpr double as_good_as_zero = 1e-14;
 
 /// Until the residual is round-off, or no longer falls; the best point stays.
 void iterate(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+  NearFactors near;
   RollingPoint point = s.point;
   RollingStatuses statuses = s.statuses;
   s.residual = std::numeric_limits<double>::infinity();
@@ -32,7 +33,7 @@ void iterate(const SpaceProblem& problem, const RollingDrive& drive, RollingStat
     ++s.effort.newton_steps;
     s.touches = !all_open(statuses);
     if (!s.touches) return;
-    const RollingSystem<3> system(problem, drive, statuses, point);
+    RollingSystem<3> system(problem, drive, statuses, point, &near);
     s.effort.work += system.work();
     RollingPoint next = system.solve();
     if (!next.force.allFinite()) return;
@@ -41,7 +42,7 @@ void iterate(const SpaceProblem& problem, const RollingDrive& drive, RollingStat
     const bool better = residual < s.residual;
     without_gain = better ? 0 : without_gain + 1;
     const bool settled = s.solved() && !(residual < 0.1 * s.residual);
-    const bool near = !drive.torque || is_near(next, point);
+    const bool is_torque_near = !drive.torque || is_near(next, point);
     point = std::move(next);
     statuses = statuses_of(problem, point, moved, drive.coefficients());
     if (better || (s.solved() && residual <= rolling_residual_bound)) {
@@ -49,13 +50,10 @@ void iterate(const SpaceProblem& problem, const RollingDrive& drive, RollingStat
       s.statuses = statuses;
       s.residual = residual;
     }
-    const bool done = near && (s.residual <= as_good_as_zero || settled);
+    const bool done =
+        system.is_exact() && is_torque_near && (s.residual <= as_good_as_zero || settled);
     if (done || without_gain == most_without_gain) return;
   }
-}
-
-void find_slopes(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
-  if (s.solved()) s.slopes = RollingSystem<3>(problem, drive, s.statuses, s.point).slopes(s.point);
 }
 
 /// In the order in which the material comes by.
@@ -116,6 +114,14 @@ void start_smooth(const SpaceProblem& problem, const RollingDrive& drive, Rollin
   iterate(problem, drive, s);
 }
 
+/// The statuses of the groups, where pairs are closed.
+void take_statuses(const RollingGroups<3>& groups, const RollingStatuses& few,
+                   RollingStatuses& all) {
+  for (std::size_t j = 0; j < all.size(); ++j)
+    if (all[j].status != contact::Status::open && few[groups.of[j]].status != contact::Status::open)
+      all[j] = few[groups.of[j]];
+}
+
 /// By less friction first: what slides there shows where it does with more.
 void raise_friction(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
   RollingDrive less = drive;
@@ -146,10 +152,25 @@ void begin(const RollingProblem<3>& problem, const RollingDrive& drive, RollingS
   if (s.touches) look(problem, drive, s);
 }
 
+bool refine(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+  const RollingGroups<3> groups = grouped(problem);
+  if (2 * groups.problem.pairs.size() > problem.pairs.size()) return false;
+  RollingDrive of_groups = drive;
+  of_groups.pairs = gathered(groups, drive.pairs);
+  RollingState few = s;
+  few.point.force = gathered(groups, s.point.force);
+  look(groups.problem, of_groups, few);
+  iterate(groups.problem, of_groups, few);
+  s.effort = few.effort;
+  if (!few.touches || !few.solved()) return false;
+  take_statuses(groups, few.statuses, s.statuses);
+  s.point = {spread(groups, few.point.force), few.point.height, few.point.speed};
+  return true;
+}
+
 template <>
 void newton(const RollingProblem<3>& problem, const RollingDrive& drive, RollingState& s) {
   iterate(problem, drive, s);
-  find_slopes(problem, drive, s);
 }
 
 /// By less friction; then from sweeps.
@@ -168,7 +189,11 @@ void rescue(const RollingProblem<3>& problem, const RollingDrive& drive, Rolling
     s = from;
     iterate(problem, drive, s);
   }
-  find_slopes(problem, drive, s);
+}
+
+/// Several right sides: factors in double precision are as fast.
+void add_slopes(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+  if (s.solved()) s.slopes = RollingSystem<3>(problem, drive, s.statuses, s.point).slopes(s.point);
 }
 
 }  // namespace rondo::statics
