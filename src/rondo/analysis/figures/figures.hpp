@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  Figures of a run that is done, from its files: what a sweep compares its members by.
 #pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -15,6 +18,48 @@ namespace rondo::study {
 struct FigureColumn {
   std::string_view name, unit, meaning;
 };
+
+/// Unit of a figure that a kind of body does not have.
+inline constexpr std::string_view no_unit;
+
+/// A figure with its units for a plane body and for a wheel in three dimensions.
+struct FigureRow {
+  std::string_view name, plane_unit, solid_unit, meaning;
+
+  [[nodiscard]] constexpr std::string_view unit(bool solid) const noexcept {
+    return solid ? solid_unit : plane_unit;
+  }
+};
+
+/// The figures that one kind of body has, in the order of `rows`, an array of FigureRow.
+template <const auto& rows, bool solid>
+[[nodiscard]] constexpr auto columns_of() noexcept {
+  constexpr auto has_unit = [](const FigureRow& row) { return !row.unit(solid).empty(); };
+  std::array<FigureColumn, std::ranges::count_if(rows, has_unit)> columns;
+  std::size_t k = 0;
+  for (const FigureRow& row : rows)
+    if (has_unit(row)) columns[k++] = {row.name, row.unit(solid), row.meaning};
+  return columns;
+}
+
+/// Moments of a wheel in three dimensions at one time, or of steady rolling.
+inline constexpr FigureRow aligning_moment{"moment_aligning", no_unit, "N·m",
+                                           "of the ground on the wheel about the normal"},
+    overturning_moment{"moment_overturning", no_unit, "N·m",
+                       "about the heading, in the ground below the center"},
+    aligning_moment_iso{"moment_aligning_iso", no_unit, "N·m",
+                        "about the contact centre of ISO 8855"},
+    overturning_moment_iso{"moment_overturning_iso", no_unit, "N·m",
+                           "about the contact centre of ISO 8855"};
+
+/// Figures of all analyses that touch the ground, as add_figures_of_all() adds them.
+inline constexpr FigureRow energy_residual{
+    "energy_residual_relative", "1", "1", "of the balance of energies or powers, of the whole run"},
+    contact_residual{"contact_residual_max", "1", "1", "of the contact law, of the whole run"},
+    largest_penetration{"penetration_max_m", "m", "m", "of the whole run"},
+    largest_strain{"strain_max", "1", "1", "largest principal strain, of the whole run"},
+    least_jacobian{"jacobian_min", "1", "1",
+                   "least area (plane) or volume of an element over that undeformed"};
 
 /// Part of a run that means and peaks are taken over [s]; absent: its last half, up to its end.
 struct Window {
