@@ -33,49 +33,31 @@ struct Label {
   std::string description;
 };
 
-/// How a dataset stores a C++ value: as `count` numbers of `type`.
+/// `n` numbers of one type, as which a dataset stores a C++ value.
+template <Type t, std::size_t n = 1>
+struct Numbers {
+  static constexpr Type type = t;
+  static constexpr std::size_t count = n;
+};
+/// How a dataset stores a C++ value.
 template <class T>
 struct Element;
 template <>
-struct Element<double> {
-  static constexpr Type type = Type::float64;
-  static constexpr std::size_t count = 1;
-};
+struct Element<double> : Numbers<Type::float64> {};
 template <>
-struct Element<float> {
-  static constexpr Type type = Type::float32;
-  static constexpr std::size_t count = 1;
-};
+struct Element<float> : Numbers<Type::float32> {};
 template <>
-struct Element<std::int32_t> {
-  static constexpr Type type = Type::int32;
-  static constexpr std::size_t count = 1;
-};
+struct Element<std::int32_t> : Numbers<Type::int32> {};
 template <>
-struct Element<std::int64_t> {
-  static constexpr Type type = Type::int64;
-  static constexpr std::size_t count = 1;
-};
+struct Element<std::int64_t> : Numbers<Type::int64> {};
 template <>
-struct Element<std::uint8_t> {
-  static constexpr Type type = Type::uint8;
-  static constexpr std::size_t count = 1;
-};
+struct Element<std::uint8_t> : Numbers<Type::uint8> {};
 template <>
-struct Element<Vec2> {
-  static constexpr Type type = Type::float64;
-  static constexpr std::size_t count = 2;
-};
+struct Element<Vec2> : Numbers<Type::float64, 2> {};
 template <>
-struct Element<Vec3> {
-  static constexpr Type type = Type::float64;
-  static constexpr std::size_t count = 3;
-};
+struct Element<Vec3> : Numbers<Type::float64, 3> {};
 template <class T, std::size_t N>
-struct Element<std::array<T, N>> {
-  static constexpr Type type = Element<T>::type;
-  static constexpr std::size_t count = N * Element<T>::count;
-};
+struct Element<std::array<T, N>> : Numbers<Element<T>::type, N * Element<T>::count> {};
 
 /// Owns one identifier of the HDF5 library (its hid_t).
 class Handle {
