@@ -65,7 +65,6 @@ void add_works(const ContactStep& s, const ContactNode& node, Vec2 after, const 
 void report_node(const ContactStep& s, const ContactNode& node,
                  std::span<const ActiveContact> contacts, ContactReport& report) noexcept {
   const Vec2 arm = s.rotation * node.arm;
-  bool pressed = false, sticks = true;
   for (const ActiveContact& c : contacts) {
     const double residual =
         contact::law_residual(c.impulse.plane(), c.after.plane(), c.bounce, c.friction, node.mass);
@@ -75,17 +74,24 @@ void report_node(const ContactStep& s, const ContactNode& node,
     const Vec2 impulse = from_frame(c.normal, c.impulse.plane());
     report.impulse += impulse;
     report.angular_impulse += cross(arm, impulse);
+  }
+  report.count(contacts, node.tributary);
+}
+
+}  // namespace
+
+void ContactReport::count(std::span<const ActiveContact> contacts, double tributary) noexcept {
+  bool pressed = false, sticks = true;
+  for (const ActiveContact& c : contacts) {
     if (c.impulse.x <= 0.0) continue;
     pressed = true;
     sticks = sticks && c.status == Status::stick;
   }
   if (!pressed) return;
-  ++report.nodes;
-  report.sticking += sticks ? 1 : 0;
-  report.length += node.tributary;
+  ++nodes;
+  sticking += sticks ? 1 : 0;
+  length += tributary;
 }
-
-}  // namespace
 
 void sort_by_candidate(std::vector<ActiveContact>& active) noexcept {
   for (auto at = active.begin(); at != active.end(); ++at)

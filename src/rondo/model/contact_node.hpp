@@ -50,6 +50,9 @@ struct ContactReport {
 
   /// Adds the result of another part of the body in the same step.
   void add(const ContactReport& other) noexcept;
+  /// Counts a node that at least one of its contacts presses; it sticks if all of these stick.
+  /// @param tributary length or area of the node                              [m], [m²]
+  void count(std::span<const ActiveContact> contacts, double tributary) noexcept;
 };
 
 /// Puts together what a candidate feels, in the order of the candidates; what is of one keeps its

@@ -140,7 +140,6 @@ void report_contacts(const SolidContactStep& s, const SolidContactNode& node, Ve
                      ContactReport& report) noexcept {
   const Vec3 arm = s.plane.rotation * node.arm;
   const Vec3 w = drive_of(s, node.arm) + s.plane.rotation_next * after;
-  bool pressed = false, sticks = true;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     ActiveContact& c = contacts[i];
     c.after = frames[i].to(w);
@@ -152,14 +151,8 @@ void report_contacts(const SolidContactStep& s, const SolidContactNode& node, Ve
     report.residual = keep_larger(report.residual, residual / node.mass);
     report.penetration = std::max(report.penetration, -c.gap);
     report.free_velocity = std::max(report.free_velocity, norm(c.free));
-    if (c.impulse.x <= 0.0) continue;
-    pressed = true;
-    sticks = sticks && c.status == Status::stick;
   }
-  if (!pressed) return;
-  ++report.nodes;
-  report.sticking += sticks ? 1 : 0;
-  report.length += node.tributary;
+  report.count(contacts, node.tributary);
 }
 
 }  // namespace
