@@ -136,14 +136,7 @@ kernels::CyclicStrip CyclicChunk::strip_from(int first, int now, int next) noexc
   s.n_rows = std::min(kernels::most_rows, plan_.n_local - first);
   s.mirror = plan_.mirror.empty() ? nullptr : plan_.mirror.data() + first;
   s.row_size = plan_.row_size();
-  s.now = field(0, now);
-  s.next = field(0, next);
-  s.velocity = field(0, field_v);
-  s.force = field(0, field_force);
-  s.stride = plan_.stride;
-  s.turn_x = turn_x();
-  s.turn_y = turn_y();
-  s.columns = range_.columns;
+  set_fields(now, next, s);
   return s;
 }
 
@@ -157,14 +150,10 @@ void CyclicChunk::strip(const Work& work, int i) noexcept {
     for (int a = first; a < first + n; ++a)
       if (plan_.contact_row[static_cast<std::size_t>(a)] >= 0) find_touching(work, a);
   kernels::CyclicStrip s = strip_from(first, work.now, work.next);
-  s.first_pack = work.extent.first_pack;
-  s.last_pack = work.extent.last_pack;
-  s.keep_tail = plan_.cut.halo != Halo::wide;
+  set_work(work, s);
   s.lowest = first == 0;
   s.highest = first + n == plan_.n_local;
   s.step = &work.step->factors;
-  s.wheel = &work.step->wheel;
-  s.sums = sums_of(work.place);
   const std::size_t load = plan_.first_load(i);
   const bool loaded = load < plan_.first_load(i + 1);
   s.loads = loaded ? loads_.data() + RingLayout::lead +

@@ -39,6 +39,27 @@ RingChunk<C>::RingChunk(const Model& model, const RingLayout& layout, const Cycl
 }
 
 template <int C>
+void RingChunk<C>::set_fields(int now, int next, kernels::StripFields& strip) noexcept {
+  strip.now = field(0, now);
+  strip.next = field(0, next);
+  strip.velocity = field(0, field_v);
+  strip.force = field(0, layout_.keeps_force ? field_force : field_v);  // else unused
+  strip.stride = layout_.stride;
+  strip.turn_x = turn_x();
+  strip.turn_y = turn_y();
+  strip.columns = range_.columns;
+}
+
+template <int C>
+void RingChunk<C>::set_work(const StepInPass& work, kernels::StripFields& strip) noexcept {
+  strip.first_pack = work.extent.first_pack;
+  strip.last_pack = work.extent.last_pack;
+  strip.keep_tail = layout_.cut.halo != Halo::wide;
+  strip.wheel = &work.step->wheel;
+  strip.sums = sums_of(work.place);
+}
+
+template <int C>
 void RingChunk<C>::show_to_others() noexcept {
   if (layout_.cut.halo != Halo::ring) return give_edges();
   for (int a = 0; a < layout_.n_local; ++a) wrap(fields(), a, field_now());

@@ -114,6 +114,10 @@ class RingChunk {
     x[layout_.stride] = value.y;
     if constexpr (C == 3) x[2 * layout_.stride] = value.z;
   }
+  /// Sets what a strip knows of the fields; those of u are `now` and `next`.
+  void set_fields(int now, int next, kernels::StripFields& strip) noexcept;
+  /// Sets what a strip knows of a step of a pass.
+  void set_work(const StepInPass& work, kernels::StripFields& strip) noexcept;
   /// Field of u_{n+1}, and that of the step to come.
   [[nodiscard]] int field_now() const noexcept {
     return steps_ % 2 == 0 ? field_u_even : field_u_odd;

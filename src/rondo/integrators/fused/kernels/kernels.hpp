@@ -153,30 +153,34 @@ struct CyclicRow {
   int n_loads = 0;
 };
 
+/// Fields and columns of the rows of a strip. Fields are `stride` apart in a row, a component
+/// each: u of even and of odd steps, v, and with β K u_n.
+struct StripFields {
+  double* now;       ///< u_{n+1} of the chunk's first row, sector 0
+  double* next;      ///< u_{n+2}; on a loaded rim u_n till the kernel of the way
+  double* velocity;  ///< v⁻, becomes v⁺; on a loaded rim V in the axes of R_n, of R_{n+1}
+  double* force;     ///< K u_n, becomes K u_{n+1}; unused where it is not kept
+  std::ptrdiff_t stride;
+  const double* turn_x;       ///< cos φ of the chunk's sectors (padded like a field)
+  const double* turn_y;       ///< sin φ
+  int first_pack;             ///< 0, or -1 where the halo is advanced too
+  int last_pack;              ///< one past the last pack
+  int columns;                ///< sectors of the chunk's own: the sums are over these
+  bool keep_tail;             ///< lanes past `columns` in the last own pack stay as they are
+  const WheelFactors* wheel;  ///< instead of the factors of a step, on a loaded rim
+  const WheelWay* way;        ///< read by the kernel of the way alone
+  double* sums;               ///< (groups, sums of a group, lanes): added to
+};
+
 /// Some rows, one above the other, over the sectors of a chunk: product, velocity update and sums
-/// in one pass. Fields are `stride` apart in a row, two components each: u of even and of odd
-/// steps, v, and with β K u_n.
-struct CyclicStrip {
+/// in one pass.
+struct CyclicStrip : StripFields {
   const CyclicRow* rows;
   int n_rows;               ///< at most most_rows
   const MirrorRow* mirror;  ///< mirror form of each row; null: rows have entries
   std::ptrdiff_t row_size;  ///< between rows
-  double* now;              ///< u_{n+1} of the chunk's first row, sector 0
-  double* next;             ///< u_{n+2}; on a loaded rim u_n till wheel_strip_way
-  double* velocity;  ///< v⁻, becomes v⁺; on a loaded rim V in the axes of R_n, of R_{n+1}
-  double* force;     ///< K u_n, becomes K u_{n+1}
-  std::ptrdiff_t stride;
-  const double* turn_x;  ///< cos φ of the chunk's sectors (padded like a field)
-  const double* turn_y;  ///< sin φ
-  int first_pack;        ///< 0, or -1 where the halo is advanced too
-  int last_pack;         ///< one past the last pack
-  int columns;           ///< sectors of the chunk's own: the sums are over these
-  bool keep_tail;        ///< lanes past `columns` in the last own pack stay as they are
-  bool lowest, highest;  ///< no free row below the first, none above the last
+  bool lowest, highest;     ///< no free row below the first, none above the last
   const StepFactors* step;
-  const WheelFactors* wheel;  ///< instead of `step`
-  const WheelWay* way;        ///< read by wheel_strip_way alone
-  double* sums;               ///< (groups, n_sums or n_wheel_sums, lanes): added to
   // Loads on nodes, unused by kernels without: f = Σ pressure · force, in the sector's frame.
   const double* loads;      ///< force per pressure of the first, sector 0; components and loads are
                             ///< `stride` apart                                           [m]

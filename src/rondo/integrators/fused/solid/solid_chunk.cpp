@@ -76,29 +76,18 @@ kernels::SolidStrip SolidChunk::strip_of(const SolidPlanStrip& p, int now, int n
   s.entries = plan_.entries.data() + p.first_entry;
   s.n_entries = static_cast<int>(p.n_entries);
   s.blocks = plan_.numbers.data() + p.first_block;
-  s.now = field(0, now);
-  s.next = field(0, next);
-  s.velocity = field(0, field_v);
-  s.force = field(0, plan_.keeps_force ? field_force : field_v);  // else unused
-  s.stride = plan_.stride;
-  s.turn_x = turn_x();
-  s.turn_y = turn_y();
-  s.columns = range_.columns;
+  set_fields(now, next, s);
   return s;
 }
 
 kernels::SolidStrip SolidChunk::strip_of(const Work& work, const SolidPlanStrip& p) noexcept {
   kernels::SolidStrip s = strip_of(p, work.now, work.next);
-  s.first_pack = work.extent.first_pack;
-  s.last_pack = work.extent.last_pack;
-  s.keep_tail = plan_.cut.halo != Halo::wide;
+  set_work(work, s);
   s.step = &work.factors;
-  s.wheel = &work.step->wheel;
   s.swept = plan_.faces ? faces_.data() + RingLayout::lead : nullptr;
   s.rubber = window_ ? window_->forces() : nullptr;
   s.has_rubber = window_ ? window_->is_shown() : nullptr;
   s.n_sums = plan_.n_sums;
-  s.sums = sums_of(work.place);
   if (!plan_.loads.empty())
     for (int r = 0; r < p.n_rows; ++r) {
       const Vec3 load = load_on(*work.step, p.first + r);

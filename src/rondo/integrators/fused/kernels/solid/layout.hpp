@@ -77,34 +77,19 @@ struct SolidFactors {
   double axial_drag;     ///< Δt α
 };
 
-/// Some rows over the sectors of a chunk: product, velocity update and sums in one pass. Fields are
-/// `stride` apart in a row, three components each: u of even and of odd steps, v, and with β K u_n.
-struct SolidStrip {
+/// Some rows over the sectors of a chunk: product, velocity update and sums in one pass.
+struct SolidStrip : StripFields {
   const SolidRow* rows;
   int n_rows;  ///< at most solid_rows
   SolidKind kind;
   const SolidEntry* entries;
   int n_entries;
   const double* blocks;  ///< blocks of the entries, one by one, each with those of its rows
-  double* now;           ///< u_{n+1} of the chunk's first row, sector 0
-  double* next;          ///< u_{n+2}; on a loaded rim u_n till SolidWheelTable::way
-  double* velocity;      ///< v⁻, becomes v⁺; on a loaded rim V in the axes of R_n, of R_{n+1}
-  double* force;         ///< K u_n, becomes K u_{n+1}
-  std::ptrdiff_t stride;
-  const double* turn_x;  ///< cos φ of the chunk's sectors (padded like a field)
-  const double* turn_y;  ///< sin φ
-  int first_pack;        ///< 0, or -1 where the halo is advanced too
-  int last_pack;         ///< one past the last pack
-  int columns;           ///< sectors of the chunk's own: the sums are over these
-  bool keep_tail;        ///< lanes past `columns` in the last own pack stay as they are
   const SolidFactors* step;
-  const WheelFactors* wheel;   ///< instead of `step`, on a loaded rim
-  const WheelWay* way;         ///< read by SolidWheelTable::way alone
   const double* swept;         ///< forces of cords and air (SolidFaces::force); null: K u is all
   const double* rubber;        ///< forces of rubber (SolidRubber::force); null: it is linear
   const char* has_rubber;      ///< of the packs: these are to be added there
-  int n_sums;                  ///< of a group
-  double* sums;                ///< (groups of solid_packs, n_sums, lanes): added to
+  int n_sums;                  ///< of a group of solid_packs
   double load[solid_rows][3];  ///< force on each node of a row, unused by kernels without [N]
 };
 
