@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping
+from copy import copy
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,7 +15,7 @@ from ..data.errors import InputError
 from ..data.tir import Tir
 from ..data.tir_keys import COEFFICIENTS, DEFAULTS
 from . import formulas
-from .formulas import State, Tyre
+from .formulas import Aligning, Curve, State, Tyre
 
 Array = NDArray[np.float64]
 
@@ -65,7 +67,7 @@ def evaluate(tir: Tir, *, slip_angle: ArrayLike = 0.0, slip_ratio: ArrayLike = 0
         raise InputError(f"variant = {variant!r} (allowed: {PAPER}, {BOOK})")
     mirror = -1.0 if _mirrored(tir, side) else 1.0
     inputs["slip_angle"], inputs["camber"] = mirror * inputs["slip_angle"], mirror * inputs["camber"]
-    found = computed(tyre_of(tir), inputs, nominal_pressure(tir), variant == BOOK)
+    found = Channels(tyre_of(tir), inputs, nominal_pressure(tir), variant == BOOK).forces()
     return found if mirror > 0 else _in_the_mirror(found)
 
 
@@ -80,20 +82,68 @@ def tyre_of(tir: Tir) -> Tyre:
     return Tyre(values, tir.fittyp == 6)
 
 
-def computed(tyre: Tyre, given: dict[str, Array], nominal_pressure: float, book: bool) -> Forces:
-    """Of inputs that are checked and have one shape."""
-    state = _state(tyre, given, nominal_pressure, book)
-    level = _state(tyre, {**given, "camber": np.zeros_like(given["camber"])}, nominal_pressure, book)
-    fx, fy = formulas.pure_longitudinal(tyre, state), formulas.pure_lateral(tyre, state)
-    along = formulas.longitudinal_weight(tyre, state) * fx.value
-    induced = formulas.induced_lateral(tyre, state, fy.peak)
-    lateral = formulas.lateral_weight(tyre, state) * fy.value + induced
-    upright = formulas.lateral_weight(tyre, level) * formulas.pure_lateral(tyre, level).value
-    mz = formulas.aligning_moment(tyre, state, fx, fy, upright, (along, lateral), induced)
-    camber = given["camber"]
-    return Forces(along, lateral, state.load, formulas.overturning_moment(tyre, state, camber, lateral),
-                  formulas.rolling_moment(tyre, state, camber, along), mz.value, mz.trail, mz.residual, fx.peak,
-                  fy.peak, fx.stiffness, fy.stiffness, fy.camber_stiffness)
+class Channels:
+    """Forces and moments of inputs that are checked and have one shape, each computed when it is first asked for."""
+
+    def __init__(self, tyre: Tyre, given: dict[str, Array], nominal_pressure: float, book: bool) -> None:
+        self.tyre, self.camber = tyre, given["camber"]
+        self.state = _state(tyre, given, nominal_pressure, book)
+        self.level = _state(tyre, {**given, "camber": np.zeros_like(given["camber"])}, nominal_pressure, book)
+
+    @cached_property
+    def pure_x(self) -> Curve:
+        return formulas.pure_longitudinal(self.tyre, self.state)
+
+    @cached_property
+    def pure_y(self) -> Curve:
+        return formulas.pure_lateral(self.tyre, self.state)
+
+    @cached_property
+    def Fx(self) -> Array:
+        return formulas.longitudinal_weight(self.tyre, self.state) * self.pure_x.value
+
+    @cached_property
+    def induced(self) -> Array:
+        return formulas.induced_lateral(self.tyre, self.state, self.pure_y.peak)
+
+    @cached_property
+    def Fy(self) -> Array:
+        return formulas.lateral_weight(self.tyre, self.state) * self.pure_y.value + self.induced
+
+    @cached_property
+    def upright(self) -> Array:
+        return formulas.lateral_weight(self.tyre, self.level) * formulas.pure_lateral(self.tyre, self.level).value
+
+    @property
+    def aligning(self) -> Aligning:
+        return formulas.aligning_moment(self.tyre, self.state, self.pure_x, self.pure_y, self.upright,
+                                        (self.Fx, self.Fy), self.induced)
+
+    @property
+    def Mx(self) -> Array:
+        return formulas.overturning_moment(self.tyre, self.state, self.camber, self.Fy)
+
+    @property
+    def My(self) -> Array:
+        return formulas.rolling_moment(self.tyre, self.state, self.camber, self.Fx)
+
+    @property
+    def Mz(self) -> Array:
+        return self.aligning.value
+
+    def with_coefficients(self, tyre: Tyre, channel: str) -> Channels:
+        """The same inputs with other coefficients of one channel. Those of a moment leave the forces as they are."""
+        other = copy(self)
+        other.tyre = tyre
+        if channel in ("Fx", "Fy"):
+            for name in ("pure_x", "pure_y", "Fx", "induced", "Fy", "upright"):
+                other.__dict__.pop(name, None)
+        return other
+
+    def forces(self) -> Forces:
+        x, y, mz = self.pure_x, self.pure_y, self.aligning
+        return Forces(self.Fx, self.Fy, self.state.load, self.Mx, self.My, mz.value, mz.trail, mz.residual, x.peak,
+                      y.peak, x.stiffness, y.stiffness, y.camber_stiffness)
 
 
 def _state(tyre: Tyre, given: dict[str, Array], nominal_pressure: float, book: bool) -> State:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..data.errors import InputError
 from ..data.tables import installed
 from ..data.tir import Tir
-from .evaluation import BOOK, PAPER, checked, computed, nominal_pressure, tyre_of
+from .evaluation import BOOK, PAPER, Channels, checked, nominal_pressure, tyre_of
 from .fit_keys import NEUTRAL, NOT_OLD, ONLY_OLD, STAGES, Key, Stage
 from .formulas import Tyre
 
@@ -191,11 +191,13 @@ class _Data:
         measured = self.measured[channel][rows]
         scale = max(float(np.sqrt(np.mean(measured ** 2))), _SMALLEST) * np.sqrt(len(measured))
         values = dict(self.values)
-        pressure, old, names = nominal_pressure(self.tir), self.tir.fittyp == 6, [key.name for key in keys]
+        old, names = self.tir.fittyp == 6, [key.name for key in keys]
+        known = Channels(Tyre(self.values, old), inputs, nominal_pressure(self.tir), self.book)
+        getattr(known, channel)  # what does not change is computed once
 
         def residual(x: Array) -> Array:
             values.update(zip(names, x))
-            found = computed(Tyre(values, old), inputs, pressure, self.book)
+            found = known.with_coefficients(Tyre(values, old), channel)
             return np.asarray((getattr(found, channel) - measured) / scale)
 
         low, high = np.array([key.low for key in keys]), np.array([key.high for key in keys])
@@ -224,7 +226,7 @@ class _Data:
         return ""
 
     def result(self) -> Fit:
-        found = computed(Tyre(self.values, self.tir.fittyp == 6), {k: np.array(v) for k, v in self.inputs.items()},
+        found = Channels(Tyre(self.values, self.tir.fittyp == 6), {k: np.array(v) for k, v in self.inputs.items()},
                          nominal_pressure(self.tir), self.book)
         residuals = {}
         for name, measured in self.measured.items():

@@ -57,7 +57,7 @@ class Tyre:
         for k, number in enumerate(numbers):
             value = self.values[f"{stem}{number}"]
             if value:
-                total = total + value * x ** k
+                total = total + (value if k == 0 else value * x ** k)
         return total
 
     def camber_of(self, force: str, gamma: Array) -> Array:
