@@ -46,7 +46,7 @@ damping = 3000.0
 """
 
 
-class Explicit(TyreTest):
+class Cornering(TyreTest):
     def explicit(self, text, end):
         """Mean of each column in the last fifth."""
         done = run("run", self.case(text), "-o", self.results)
@@ -56,10 +56,9 @@ class Explicit(TyreTest):
             rows = [row for row in csv.DictReader(file) if float(row["time_s"]) > 0.8 * end]
         return {name: np.mean([float(row[name]) for row in rows]) for name in rows[0]}
 
-    def test_the_explicit_step_of_an_independent_calculation(self):
-        """-716.7 N; after 0.15 s it is within 1 % of that."""
-        mean = self.explicit(cornering(60, 0.15, 1.0), 0.15)
-        self.assertAlmostEqual(mean["force_lateral"] / -716.7, 1.0, delta=1e-2)
+
+class Explicit(Cornering):
+    """With the axle at the height that this load gives: test_tyre_long.py."""
 
     def test_an_axle_that_a_load_presses_down(self):
         """It comes to the height at which the ground bears that load, in the fused step."""

@@ -133,6 +133,7 @@ def test_overwritten_modes_are_gone(solvers, tmp_path):
     assert not (tmp_path / "run" / "convergence.csv").exists()
 
 
+@pytest.mark.long
 def test_figures(solvers, tmp_path):
     from rondo.figures.run_figures import draw_run
 
