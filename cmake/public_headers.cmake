@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # What is installed of src/rondo: docs/library.md names the first list, whose headers include those
-# of the second. house_install compiles each of them by itself against what is installed.
+# of the second. house_install compiles all of them together against what is installed, and by itself each one
+# that no source of the library includes before all others.
 set(RONDO_PUBLIC_HEADERS
     core/error.hpp core/version.hpp case/case.hpp case/setup.hpp
     output/run_options.hpp analysis/run.hpp analysis/build/build.hpp analysis/modes/modes.hpp

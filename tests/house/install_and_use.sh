@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Installs the build into a folder of its own, builds another program, the one that docs/library.md shows,
-# and the example of an own material against it, and runs them. The headers are those of the list, and each stands by itself. Then the
-# folder is moved, and the Python package works from there, with the library as its module and the programs.
+# and the example of an own material against it, and runs them. The headers are those of the list, and each stands by
+# itself. Then the folder is moved, and the Python package works from there, with the library as its module and the programs.
 set -euo pipefail
 build=$1 source=$2 build_type=$3
 work=$(mktemp -d)
@@ -21,8 +21,21 @@ done
   sed -n '/^```cpp$/,/^```$/{/^```/!p}' "$source/docs/library.md"
   printf 'return reports.back().balance.relative < 1e-12 ? 0 : 1;\n}\n'
 } >"$work/page.cpp"
+include=$work/prefix/include
+alone=() # headers that no source of the library includes before all others
+for header in $(cd "$include" && find rondo -name '*.hpp'); do
+  source_of=$source/src/${header%.hpp}.cpp
+  [ -f "$source_of" ] && [ "$(grep -m 1 '^#include' "$source_of")" = "#include \"$header\"" ] || alone+=("$header")
+  for included in $(sed -n 's/^#include "\(.*\)"$/\1/p' "$include/$header"); do
+    test -f "$include/$included" || {
+      echo "$header includes $included, which is not installed"
+      exit 1
+    }
+  done
+done
+echo "headers compiled alone: ${alone[*]}"
 cmake -S "$source/tests/house/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE="$build_type" \
-  -DCMAKE_PREFIX_PATH="$work/prefix" -DRONDO_INCLUDE="$work/prefix/include" \
+  -DCMAKE_PREFIX_PATH="$work/prefix" -DRONDO_INCLUDE="$include" -DRONDO_ALONE="$(IFS=';' && echo "${alone[*]}")" \
   -DRONDO_PAGE="$work/page.cpp" -DRONDO_MATERIAL="$source/examples/own_material.cpp" >/dev/null
 cmake --build "$work/build"
 cases=$work/prefix/share/rondo/cases
