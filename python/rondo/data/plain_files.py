@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
+import re
 import resource
 import stat
 
@@ -14,6 +15,7 @@ from .errors import Error, FileError
 TEXT_ROOM = 8  # bytes of memory for a byte of a text: the text, its lines, the numbers in them
 SMALL = 2**24  # bytes for which nobody looks how many there are
 IN_PARTS = ("snapshots", "fields", "contact")  # groups of results.h5
+NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")  # also with the D of Fortran
 _KINDS = ((stat.S_ISFIFO, "a FIFO"), (stat.S_ISCHR, "a device"), (stat.S_ISBLK, "a device"),
           (stat.S_ISSOCK, "a socket"), (stat.S_ISDIR, "a directory"))
 
@@ -82,6 +84,19 @@ def bytes_of(path: pathlib.Path) -> bytes:
 def text_of(path: pathlib.Path) -> str:
     """The same as a text. Raises ValueError: it is not UTF-8."""
     return bytes_of(path).decode("utf-8").replace("\r\n", "\n")
+
+
+def foreign_lines(path: pathlib.Path, kind: str) -> list[str]:
+    """Lines of a text that another program wrote, in UTF-8 or Latin-1, with the ends of lines of any system.
+    @param kind: what is allowed, as "a TYDEX file". @raise FileError: it is no text"""
+    raw = bytes_of(path).rstrip(b"\x1a")
+    if b"\0" in raw:
+        raise FileError(f"{path}: holds a byte 0: it is no text (allowed: {kind}, text in UTF-8 or Latin-1)")
+    try:
+        text = raw.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        text = raw.decode("latin-1")
+    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
 
 
 def demand_plausible(path: pathlib.Path, file: h5py.File) -> None:

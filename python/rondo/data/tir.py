@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from typing import NoReturn
 
 from .errors import FileError, InputError, unknown
-from .plain_files import bytes_of
+from .plain_files import NUMBER, foreign_lines
 from .si import INCH, POUND_FORCE
 from .tir_keys import COEFFICIENTS, DEFAULTS, DIMENSIONS, SECTION_OF, SECTIONS, TEXTS, Dimension
 
@@ -29,7 +29,6 @@ _RADIANS = ("radian", "radians", "rad")
 _SI = {"LENGTH": "meter", "FORCE": "newton", "ANGLE": "radians", "MASS": "kg", "TIME": "second"}
 _OLD = 6  # FITTYP of MF-Tyre 5.2, which PAC2002 equals
 _FITTYPS = {6: "MF 5.2", 61: "MF 6.1", 62: "MF 6.2"}
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")
 
 
 @dataclass(frozen=True)
@@ -105,14 +104,7 @@ class _Reader:
 
     def __init__(self, file: pathlib.Path) -> None:
         self.file = file
-        raw = bytes_of(file).rstrip(b"\x1a")
-        if b"\0" in raw:
-            raise FileError(f"{file}: holds a byte 0: it is no text (allowed: a .tir file, text in UTF-8 or Latin-1)")
-        try:
-            text = raw.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = raw.decode("latin-1")
-        self.lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+        self.lines = foreign_lines(file, "a .tir file")
         self.where: dict[str, dict[str, int]] = {}
         self.found: dict[str, dict[str, Value]] = {}
         self.tables: dict[str, list[str]] = {}
@@ -150,7 +142,7 @@ class _Reader:
             elif not section:
                 self.refuse(number, f"{bare[:30]!r} stands before the first section (allowed: a section as [MODEL]): "
                                     "it is no .tir file, or its beginning is missing")
-            elif bare.startswith("{") or all(map(_NUMBER.fullmatch, bare.split())):
+            elif bare.startswith("{") or all(map(NUMBER.fullmatch, bare.split())):
                 self.tables.setdefault(section, []).append(line.rstrip())
             else:
                 self._key(number, section, bare)
@@ -192,7 +184,7 @@ class _Reader:
         if not text:
             return "" if quoted else None
         words_only = section == "UNITS" or (key in TEXTS and section != "INERTIA")
-        if _NUMBER.fullmatch(text) and not words_only:
+        if NUMBER.fullmatch(text) and not words_only:
             value = float(text.upper().replace("D", "E"))
             if not math.isfinite(value):
                 self.refuse(number, f"{key} = {text} is too large (allowed: a finite number)")

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .errors import FileError
-from .plain_files import bytes_of
+from .plain_files import NUMBER, foreign_lines
 from .si import near, unit_named
 from .tydex import LONGEST_LINE, MISSING, NAME, TEXT, UNIT, WIDTH, Channel, Constant, Tydex
 
@@ -22,7 +22,6 @@ Array = NDArray[np.float64]
 BLOCKS = ("HEADER", "COMMENTS", "CONSTANTS", "MEASURCHANNELS", "MEASURDATA", "MODELDEFINITION", "MODELPARAMETERS",
           "MODELCOEFFICIENTS", "MODELCHANNELS", "MODELOUTPUTS", "MODELEND", "END")
 KEPT = ("MODELDEFINITION", "MODELCOEFFICIENTS", "MODELCHANNELS", "MODELOUTPUTS")  # as lines, not interpreted
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([EeDd][+-]?\d+)?")
 
 
 def read_tydex(path: str | os.PathLike[str]) -> Tydex:
@@ -37,14 +36,7 @@ class _Reader:
 
     def __init__(self, file: pathlib.Path) -> None:
         self.file = file
-        raw = bytes_of(file).rstrip(b"\x1a")
-        if b"\0" in raw:
-            raise FileError(f"{file}: holds a byte 0: it is no text (allowed: a TYDEX file, text in UTF-8 or Latin-1)")
-        try:
-            text = raw.decode("utf-8-sig")
-        except UnicodeDecodeError:
-            text = raw.decode("latin-1")
-        self.lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+        self.lines = foreign_lines(file, "a TYDEX file")
         self.blocks: dict[str, tuple[int, list[tuple[int, str]]]] = {}  # keyword: its line, the lines below it
         self.said: dict[str, str] = {}  # what stands behind a keyword
 
@@ -145,7 +137,7 @@ class _Reader:
             if not value:
                 self.refuse(number, f"{name} of **{block} has no value (allowed: a number or a text from column 51): "
                                     "is the line shifted?")
-            if not _NUMBER.fullmatch(value):
+            if not NUMBER.fullmatch(value):
                 if re.fullmatch(r"[+-]?\d+,\d+", value):
                     self._number(number, value, name)
                 constants[name] = Constant(name, text, unit, value)
@@ -207,7 +199,7 @@ class _Reader:
     def _number(self, number: int, word: str, what: str) -> float:
         if word.upper() == MISSING:
             return math.nan
-        if not _NUMBER.fullmatch(word):
+        if not NUMBER.fullmatch(word):
             hint = ": write a decimal point" if re.fullmatch(r"[+-]?\d+,\d+", word) else ""
             self.refuse(number, f"{word!r} as {what} is no number (allowed: a number, or {MISSING}){hint}")
         value = float(word.upper().replace("D", "E"))
@@ -217,4 +209,4 @@ class _Reader:
 
 
 def _is_number(word: str) -> bool:
-    return word.upper() == MISSING or _NUMBER.fullmatch(word) is not None
+    return word.upper() == MISSING or NUMBER.fullmatch(word) is not None

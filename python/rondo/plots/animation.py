@@ -67,12 +67,7 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
     height. width: [px]. deformation: factor on it, as of plot_field."""
     path = pathlib.Path(path)
     ending = path.suffix.lower()
-    check_place(path, ending)
-    chosen = snapshots_of(run, from_time, to_time, frames)
-    if fps is None:
-        fps = min(FPS, max(1, round(len(chosen) / SECONDS)))
-    if fps < 1:
-        raise Error(f"fps = {fps}: at least 1 picture a second")
+    chosen, fps = plan_of(run, path, (from_time, to_time), frames, fps)
     with kept(run.path), style.paper(), matplotlib.rc_context(
             {"figure.constrained_layout.use": False}):
         if limits is None:
@@ -94,6 +89,19 @@ def _limits(run: Run, chosen: np.ndarray, quantity: str) -> tuple[float, float]:
         low, high = min(low, float(means.min())), max(high, float(means.max()))
         signed = signed or field.signed
     return full_range(np.array([low, high]), signed)
+
+
+def plan_of(run: Run, path: pathlib.Path, window: tuple[float | None, float | None], frames: int | None,
+            fps: int | None) -> tuple[np.ndarray, int]:
+    """Snapshots of a film, and its pictures a second.
+    @raise Error: the path or the numbers do not do, or there is no snapshot in the window."""
+    check_place(path, path.suffix.lower())
+    chosen = snapshots_of(run, *window, frames)
+    if fps is None:
+        fps = min(FPS, max(1, round(len(chosen) / SECONDS)))
+    if fps < 1:
+        raise Error(f"fps = {fps}: at least 1 picture a second")
+    return chosen, fps
 
 
 def check_place(path: pathlib.Path, ending: str) -> None:

@@ -16,7 +16,7 @@ from ... import style
 from ...data.errors import Error
 from ...data.files import kept
 from ...data.solid import outer_faces
-from ..animation import DPI, FPS, SECONDS, SIZES, SMALLEST, check_place, even, snapshots_of
+from ..animation import DPI, SIZES, SMALLEST, even, plan_of
 from ..encoding import SAMPLES, write_film
 from ..encoding import Picture as Image
 from .footprint import heading
@@ -54,12 +54,7 @@ def animate(run: Run, path: str | os.PathLike[str], quantity: str = "displacemen
         raise Error(f'renderer "{PYVISTA}": the Python package pyvista is not installed; install it, '
                     f'or take "{MATPLOTLIB}"')
     ending = path.suffix.lower()
-    check_place(path, ending)
-    chosen = snapshots_of(run, from_time, to_time, frames)
-    if fps is None:
-        fps = min(FPS, max(1, round(len(chosen) / SECONDS)))
-    if fps < 1:
-        raise Error(f"fps = {fps}: at least 1 picture a second")
+    chosen, fps = plan_of(run, path, (from_time, to_time), frames, fps)
     with kept(run.path), style.paper(), matplotlib.rc_context(
             {"figure.constrained_layout.use": False}):
         film = film_of(run, chosen, quantity, limits, view or default_view(quantity),
