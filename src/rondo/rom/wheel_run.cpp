@@ -40,11 +40,6 @@ WheelSettings settings_of(const dynamics::Model& model, const Ring& ring) {
           .lengths = lengths_of(model, ring)};
 }
 
-/// Numbers of the sums of a viscous wheel, which others do not keep.
-std::size_t works_of(const WheelModel& wheel) noexcept {
-  return wheel.creep.empty() ? 0 : 4;
-}
-
 }  // namespace
 
 WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonics,
@@ -53,9 +48,7 @@ WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonic
   const OneBlasThread one;
   WheelModel wheel;
   wheel.harmonics = std::move(harmonics);
-  wheel.branches = viscosity.branches;
-  if (!wheel.branches.empty())
-    wheel.creep = creep_terms(wheel.branches, viscosity.stiffness_damping);
+  take_viscosity(viscosity, wheel);
   for (const Complex x : ring.place) wheel.radius = std::max(wheel.radius, std::hypot(x.re, x.im));
   const auto residual = [&](double square) -> CreepResidual {
     if (whole) {
@@ -68,6 +61,12 @@ WheelModel make_wheel_model(const Ring& ring, std::vector<RingHarmonic> harmonic
   };
   spread_residuals(spins, wheel, residual);
   return wheel;
+}
+
+void take_viscosity(const WheelViscosity& viscosity, WheelModel& wheel) {
+  wheel.branches = viscosity.branches;
+  if (!wheel.branches.empty())
+    wheel.creep = creep_terms(wheel.branches, viscosity.stiffness_damping);
 }
 
 void spread_residuals(const KnownSpins& spins, WheelModel& wheel,
@@ -105,7 +104,7 @@ WheelRun::WheelRun(const dynamics::Model& model, const Ring& ring, const WheelMo
       figures_(figures),
       candidate_(model.n_nodes(), -1),
       wheel_(ring, wheel, model.contact->ground, settings_of(model, ring)),
-      n_works_(works_of(wheel)) {
+      n_sums_(sums_of(wheel)) {
   RONDO_DEMAND(model.dt > 0.0, model.dt);
   for (std::size_t i = 0; i < model.contact->nodes.size(); ++i)
     candidate_[at(model.contact->nodes[i])] = static_cast<int>(i);
@@ -128,7 +127,7 @@ void WheelRun::begin(const dynamics::State& at_start) {
     frame_ = rim_->frame();
   }
   const WheelEnergy energy = wheel_.energy_at_start(!rim_);
-  internal_work_.add(energy.stored);
+  sums_.start(energy);
   ledger_.compare(energy_of(energy));
 }
 
@@ -137,7 +136,7 @@ dynamics::StepEnergy WheelRun::energy_of(const WheelEnergy& wheel) const {
   energy.kinetic = wheel.kinetic;
   energy.strain = wheel.elastic + wheel.residual;
   // The work against the forces, as of full runs, less what the spin softens.
-  if (is_viscous()) energy.strain += internal_work_.value() - wheel.stored;
+  if (is_viscous()) energy.strain += sums_.internal_work() - wheel.stored;
   if (rim_) rim_->add_energy(energy);
   return energy;
 }
@@ -218,11 +217,8 @@ void WheelRun::step(dynamics::StepReport& report) {
   works.scheme += wheel.energy.scheme;
   ledger_.add_works(works);
   if (is_viscous()) {
-    internal_work_.add(wheel.energy.internal);
-    viscous_loss_.add(wheel.energy.viscous);
-    report.material.internal_work = internal_work_.value();
-    report.material.stored_energy = wheel.energy.stored;
-    report.material.dissipation_viscous = viscous_loss_.value();
+    sums_.add(wheel.energy);
+    sums_.report(wheel.energy, report.material);
   }
   ledger_.compare(energy_of(wheel.energy));
   report.balance = ledger_.last();
@@ -266,7 +262,7 @@ void WheelRun::fields(dynamics::State& state) const noexcept {
 
 std::size_t WheelRun::n_numbers(const dynamics::Model& model, const Ring& ring,
                                 const WheelModel& wheel) noexcept {
-  return RingWheel::n_numbers(ring, wheel, model.contact->law.friction) + works_of(wheel) +
+  return RingWheel::n_numbers(ring, wheel, model.contact->law.friction) + sums_of(wheel) +
          (model.rim ? WheelRim::n_numbers : 0);
 }
 
@@ -287,9 +283,7 @@ dynamics::SavedState WheelRun::save() const {
     const std::vector<double> rim = rim_->save();
     saved.ring.insert(saved.ring.end(), rim.begin(), rim.end());
   }
-  if (is_viscous())
-    for (const CompensatedSum& sum : {internal_work_, viscous_loss_})
-      saved.ring.insert(saved.ring.end(), {sum.sum(), sum.correction()});
+  if (is_viscous()) sums_.save(saved.ring);
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -298,10 +292,8 @@ void WheelRun::restore(const dynamics::SavedState& saved) {
   n_ = saved.step;
   std::span<const double> numbers = saved.ring;
   if (is_viscous()) {
-    const auto works = numbers.last(n_works_);
-    internal_work_ = {works[0], works[1]};
-    viscous_loss_ = {works[2], works[3]};
-    numbers = numbers.first(numbers.size() - n_works_);
+    sums_.restore(numbers.last(n_sums_));
+    numbers = numbers.first(numbers.size() - n_sums_);
   }
   const std::size_t of_rim = rim_ ? WheelRim::n_numbers : 0;
   wheel_.restore(numbers.first(numbers.size() - of_rim));

@@ -9,6 +9,7 @@
 
 #include "rondo/core/process_wide.hpp"
 #include "rondo/model/integrator.hpp"
+#include "rondo/rom/wheel/material_sums.hpp"
 #include "rondo/rom/wheel/ring_wheel.hpp"
 #include "rondo/rom/wheel/whole_mesh.hpp"
 
@@ -38,6 +39,9 @@ struct WheelViscosity {
   std::vector<fem::ViscousBranch> branches{};  ///< the same ones in all of the body; none: elastic
   double stiffness_damping = 0.0;              ///< β beside them [s]
 };
+/// Sets the branches of a wheel and its creep.
+void take_viscosity(const WheelViscosity& viscosity, WheelModel& wheel);
+
 /// Finds the tables of a wheel: one for a spin that stays; else three between 0 and the largest,
 /// where a polynomial in s² errs least (Chebyshev). @param residual by s²
 void spread_residuals(const KnownSpins& spins, WheelModel& wheel,
@@ -77,7 +81,7 @@ class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
   [[nodiscard]] WheelMotion motion_of(long long step) const;
   void begin(const dynamics::State& at_start);
   void step(dynamics::StepReport& report);
-  [[nodiscard]] bool is_viscous() const noexcept { return n_works_ > 0; }
+  [[nodiscard]] bool is_viscous() const noexcept { return n_sums_ > 0; }
   [[nodiscard]] dynamics::StepEnergy energy_of(const WheelEnergy& wheel) const;
   void count(const WheelReport& wheel, double seconds);
   void report_contact(const WheelReport& wheel, dynamics::ContactReport& report) const;
@@ -90,11 +94,11 @@ class WheelRun final : public dynamics::Integrator, public dynamics::Resumable {
   WheelFigures& figures_;
   std::vector<int> candidate_;  ///< (n) place among the candidates; -1: none
   RingWheel wheel_;
-  const std::size_t n_works_;  ///< numbers of the sums of a viscous wheel
+  const std::size_t n_sums_;  ///< numbers of the sums of a viscous wheel
   std::optional<WheelRim> rim_;
   dynamics::Ledger ledger_;
-  CompensatedSum internal_work_, viscous_loss_;  ///< of a viscous wheel, as in MaterialReport
-  long long n_ = 0;                              ///< number of steps made
+  MaterialSums sums_;  ///< of a viscous wheel
+  long long n_ = 0;    ///< number of steps made
   dynamics::FrameStep frame_;
   std::vector<dynamics::ActiveContact> active_;
 };

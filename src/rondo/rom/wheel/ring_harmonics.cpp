@@ -13,6 +13,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/rom/wheel/creep/creep_pair.hpp"
 
 namespace rondo::rom {
 namespace {
@@ -184,45 +185,21 @@ VectorXd by_spin(const Ring& ring, const RingHarmonic* h, const Dynamic& still, 
   return u.real();
 }
 
-/// Both matrices of a harmonic of a viscous ring, (rows, 2C).
-struct CreepPair {
-  MatrixXcd at_once, later;
-};
-
-/// Whether a Hermitian matrix has no eigenvalue below 0 but for round-off.
-bool is_semidefinite(const MatrixXcd& a) {
-  const VectorXd values =
-      Eigen::SelfAdjointEigenSolver<MatrixXcd>(0.5 * (a + a.adjoint()), Eigen::EigenvaluesOnly)
-          .eigenvalues();
-  return values.minCoeff() >= -1e-9 * values.maxCoeff();
-}
-
-/// Whether the first term of the creep and the others lag differently at a rate: where they do not,
-/// one matrix says all.
-bool both_creep(std::span<const CreepTerm> creep, double rate) {
-  const Complexes first = creep.front().at(rate), others = creep_at(creep.subspan(1), rate);
-  return std::abs((first * std::conj(others)).imag()) > 1e-6 * std::abs(first) * std::abs(others);
-}
-
-/// The Hermitian matrices A and B with A j_0 h_0 + B Σ j_b h_b = the answer of Z_k with K g: for
-/// the rate and its opposite these are two equations, because the answer to the opposite rate is
-/// the adjoint one. None: one of them would not be positive. @pre both_creep()
+/// (rows, 2C) Both matrices of the answer of Z_k with K g. None: one of them would not be positive.
+/// @pre the lags differ
 std::optional<CreepPair> exact_creep(const Ring& ring, const RingHarmonic* h, int k, double spin,
-                                     std::span<const CreepTerm> creep, const MatrixXcd& forces,
+                                     const CreepLags& lags, const MatrixXcd& forces,
                                      const Parts& parts) {
   const double rate = k * spin;
-  const Complexes first = creep.front().at(rate), others = creep_at(creep.subspan(1), rate);
-  const Complexes determinant = first * std::conj(others) - std::conj(first) * others;
   const auto answer = [&](const Complexes& modulus) {
     Dynamic z(ring, h, k, spin, rate);
     z.ring += (modulus - 1.0) * stiffness_of(ring, k);
     if (h) z.modes.diagonal() += (modulus - 1.0) * h->squares;
     return z.beyond(h, forces);
   };
-  const Complexes modulus = 1.0 / (first + others);
+  const Complexes modulus = 1.0 / lags.all();
   const MatrixXcd ahead = answer(modulus), back = answer(std::conj(modulus));
-  CreepPair pair{(std::conj(others) * ahead - others * back) / determinant,
-                 (first * back - std::conj(first) * ahead) / determinant};
+  CreepPair pair = creep_pair(lags, ahead, back);
   if (!is_semidefinite(pair.at_once(parts.contact, Eigen::all)) ||
       !is_semidefinite(pair.later(parts.contact, Eigen::all)))
     return {};
@@ -378,8 +355,9 @@ CreepResidual creep_residual(const Ring& ring, std::span<const RingHarmonic> har
       z = Dynamic(ring, h, k, spin, 0.0);
     }
     std::optional<CreepPair> pair;
-    const bool two = rolls && !is_static && both_creep(creep, rate);
-    if (two) pair = exact_creep(ring, h, k, spin, creep, forces, parts);
+    const CreepLags lagging(creep, rate);
+    const bool two = rolls && !is_static && lagging.differ();
+    if (two) pair = exact_creep(ring, h, k, spin, lagging, forces, parts);
     if (!pair) {
       if (two) out.one_matrix.push_back(k);
       const MatrixXcd g = z.beyond(h, forces);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "rondo/fem/sector_stiffness.hpp"
-#include "rondo/rom/wheel/creep.hpp"
+#include "rondo/rom/wheel/creep/creep.hpp"
 
 namespace rondo::rom {
 

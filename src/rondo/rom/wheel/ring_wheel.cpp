@@ -16,7 +16,8 @@ using Eigen::Index;
 
 }  // namespace
 
-RingWheel::Modes::Modes(const RingHarmonic& of, bool whole, std::size_t n_branches) {
+RingWheel::Modes::Modes(const RingHarmonic& of, bool whole, std::size_t n_branches)
+    : strain(of.squares.size(), n_branches) {
   const Index r = of.squares.size(), c = of.contact.rows();
   for (Vector* v : {&state, &before, &work, &shift, &twist}) v->setZero(2 * r);
   for (Vector* v : {&force, &outside, &held, &left, &pushed}) v->setZero(r);
@@ -25,7 +26,6 @@ RingWheel::Modes::Modes(const RingHarmonic& of, bool whole, std::size_t n_branch
   stiff.setZero(r);
   for (Matrix* m : {&inverse, &step}) m->setZero(r, r);
   one.setIdentity(r, r);
-  for (Matrix* m : {&strain, &strain_mean}) m->setZero(r, static_cast<Index>(n_branches));
   if (whole) return;  // these are in Real
   reply.setZero(r, c);
   answer.setZero(c, c);
@@ -123,8 +123,9 @@ RingWheel::Block RingWheel::of_tables(int to, int from, double at_once, double l
 
 /// What a force that has always been there does.
 RingWheel::Block RingWheel::held(int to, int from) const {
-  return creep_ ? of_tables(to, from, creep_->held_at_once(), creep_->held_later())
-                : beyond(to, from);
+  if (!creep_) return beyond(to, from);
+  const CreepMemory& creep = creep_->memory();
+  return of_tables(to, from, creep.held_at_once(), creep.held_later());
 }
 
 /// G of a pair at the spin, made when it is asked for; of a viscous wheel what a new force does at
@@ -132,7 +133,8 @@ RingWheel::Block RingWheel::held(int to, int from) const {
 void RingWheel::make_beyond(int to, int from) const {
   const std::size_t p = pair(to, from);
   if (creep_) {
-    beyond_[p] = of_tables(to, from, creep_->new_at_once(), creep_->new_later());
+    const CreepMemory& creep = creep_->memory();
+    beyond_[p] = of_tables(to, from, creep.new_at_once(), creep.new_later());
     beyond_made_[p] = version_;
     return;
   }
@@ -148,39 +150,17 @@ void RingWheel::make_beyond(int to, int from) const {
   beyond_made_[p] = version_;
 }
 
-/// Share of the middle velocity and of its strain at the start in the mean strain of a branch:
-/// (h p_m + e)/(c + h/τ).
-RingWheel::Complexes RingWheel::branch_share(const Modes& s, std::size_t branch) const noexcept {
-  return 1.0 / (s.turn + 0.5 * settings_.dt / model_.branches[branch].time);
-}
-
-/// What the strains of the branches at the start of the step take from the modes, (r).
-void RingWheel::strain_modes(const RingHarmonic& of, const Modes& s, Vector& out) const {
-  for (std::size_t b = 0; b < model_.branches.size(); ++b)
-    out -= (0.5 * settings_.dt * model_.branches[b].relative_modulus * branch_share(s, b)) *
-           of.squares.cwiseProduct(s.strain.col(static_cast<Index>(b)));
-}
-
 /// The strains of the branches at the end of the step.
 void RingWheel::relax_modes() {
-  const double half = 0.5 * settings_.dt;
-  for (Modes& s : modes_) {
-    const Index r = s.stiff.size();
-    for (std::size_t b = 0; b < model_.branches.size(); ++b) {
-      const auto column = static_cast<Index>(b);
-      const Complexes share = branch_share(s, b);
-      for (Index j = 0; j < r; ++j) {
-        const Complexes middle = 0.5 * (s.before[r + j] + s.state[r + j]), e = s.strain(j, column);
-        s.strain_mean(j, column) = share * (half * middle + e);
-        s.strain(j, column) = 2.0 * s.strain_mean(j, column) - e;
-      }
-    }
-  }
+  for (std::size_t h = 0; h < modes_.size(); ++h)
+    modes_[h].strain.relax(branches(h), modes_[h].before, modes_[h].state);
 }
 
 /// Finds the matrices of a harmonic. With h = ½Δt the middle of the step solves
 /// [c, -h; hL, c + hD] (y_m, p_m) = (y, p + hf).
-void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Modes& s) {
+void RingWheel::fill_step(std::size_t harmonic, double spin, double rate) {
+  const RingHarmonic& of = harmonics_[harmonic];
+  Modes& s = modes_[harmonic];
   const double half = 0.5 * settings_.dt;
   s.turn = 1.0 + half * Complexes(0.0, of.k * spin);
   s.lever = half / s.turn;
@@ -192,7 +172,7 @@ void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Mode
     real_.step.diagonal().array() += 1.0 + half * damping + half * half * s.stiff.array();
     for (std::size_t b = 0; b < model_.branches.size(); ++b)
       real_.step.diagonal() +=
-          (half * half * model_.branches[b].relative_modulus * branch_share(s, b).real()) *
+          (half * half * model_.branches[b].relative_modulus * branches(harmonic).share(b).real()) *
           of.squares;
     real_.factor.compute(real_.step);
     real_.inverse = real_.factor.solve(real_.one);
@@ -201,9 +181,7 @@ void RingWheel::fill_step(const RingHarmonic& of, double spin, double rate, Mode
   }
   s.step = (2.0 * half * spin + half * rate * s.lever) * of.coriolis;
   s.step.diagonal().array() += s.turn + half * damping + half * s.lever * s.stiff.array();
-  for (std::size_t b = 0; b < model_.branches.size(); ++b)
-    s.step.diagonal() +=
-        (half * half * model_.branches[b].relative_modulus * branch_share(s, b)) * of.squares;
+  branches(harmonic).add_to(s.step);
   s.factor.compute(s.step);
   s.inverse = s.factor.solve(s.one);
   const double share = settings_.theta * settings_.dt * of.weight() / ring_.n_sectors();
@@ -236,8 +214,7 @@ void RingWheel::take_spin(const WheelMotion& m, double rate, double end) {
   const double dt = settings_.dt;
   const double spin = rate == 0.0 ? end : (m.angle_next - m.angle) / dt;
   set_residual(end);
-  for (std::size_t h = 0; h < harmonics_.size(); ++h)
-    fill_step(harmonics_[h], spin, rate, modes_[h]);
+  for (std::size_t h = 0; h < harmonics_.size(); ++h) fill_step(h, spin, rate);
   has_shift_ = false;
 }
 
@@ -334,7 +311,7 @@ void RingWheel::move_modes(const WheelMotion& m) {
     const auto y = s.before.head(r), p = s.before.tail(r);
     s.pushed *= 0.5 * settings_.dt;
     s.pushed += p - s.lever * s.stiff.cwiseProduct(y);
-    if (creep_) strain_modes(of, s, s.pushed);
+    if (creep_) s.strain.take_from(branches(h), s.pushed);
     if (s.twisted != 0.0) s.pushed.noalias() -= s.lever * s.twisted * (of.coriolis * y);
     s.state.tail(r).noalias() = s.inverse * s.pushed;  // the middle
     s.state.head(r) = 2.0 * (y / s.turn + s.lever * s.state.tail(r)) - y;

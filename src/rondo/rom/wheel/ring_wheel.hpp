@@ -13,11 +13,13 @@
 #include "rondo/contact/coupled/block.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/core/vec2.hpp"
+#include "rondo/rom/wheel/creep/branch_strains.hpp"
 #include "rondo/rom/wheel/creep_field.hpp"
 #include "rondo/rom/wheel/gap_law.hpp"
 #include "rondo/rom/wheel/left_behind.hpp"
 #include "rondo/rom/wheel/ring_harmonics.hpp"
 #include "rondo/rom/wheel/sliding_memory.hpp"
+#include "rondo/rom/wheel/wheel_energy.hpp"
 #include "rondo/rom/wheel/wheel_rim.hpp"
 
 namespace rondo::rom {
@@ -53,23 +55,6 @@ struct WheelModel {
   std::vector<CreepTerm> creep{};     ///< of these and of the stiffness damping
   std::vector<RingResidual> later{};  ///< at `squares`: CreepResidual::later
   std::vector<int> one_matrix{};      ///< CreepResidual::one_matrix of the largest spin
-};
-
-/// Energies at the end of a step, and the works in it [J/m].
-struct WheelEnergy {
-  double kinetic = 0.0;   ///< of the modes, in the co-rotating frame
-  double elastic = 0.0;   ///< of the modes; on tables less what the spin softens them by
-  double residual = 0.0;  ///< of the compliance of the contact nodes
-  double stored = 0.0;    ///< elastic and residual, without the softening
-  double frame = 0.0;     ///< work of the inertia of the frame and of gravity
-  double by_mass = 0.0, by_stiffness = 0.0;  ///< taken by damping of the modes
-  double by_residual = 0.0;                  ///< taken by damping of the residual
-  double viscous = 0.0;   ///< taken by the viscous branches of the material, >= 0
-  double internal = 0.0;  ///< work against all elastic and viscous forces, found from these forces
-  double friction = 0.0;  ///< taken by friction
-  double arrival = 0.0;   ///< taken where nodes arrive, as distance from the ground
-  double rim = 0.0;       ///< work of the ground's forces on the rim
-  double scheme = 0.0;    ///< by which the distances of the law differ from the work of the forces
 };
 
 /// A node that the ground presses.
@@ -159,8 +144,7 @@ class RingWheel {
     Vector ground;          ///< (2C) sum of e^{-ikψ} λ over the sectors, over their number
     Vector contact;         ///< (2C) φ_c y without new forces
     Vector pushed, work;    ///< (r), (2r)
-    Matrix strain;          ///< (r, branches) y less what the branch has followed of it
-    Matrix strain_mean;     ///< (r, branches) its mean over the last step
+    BranchStrains strain;
     // fill_step() sets these for a step.
     Complexes turn, lever;  ///< c = 1 + ½Δt iks; ½Δt/c                                         [s]
     double twisted = 0.0;   ///< ṡ                                                     [rad/s²]
@@ -232,10 +216,11 @@ class RingWheel {
   static constexpr std::size_t numbers_of_node = 15;
   void use_spin(const WheelMotion& motion);
   void take_spin(const WheelMotion& motion, double rate, double end);
-  void fill_step(const RingHarmonic& of, double spin, double rate, Modes& modes);
+  void fill_step(std::size_t harmonic, double spin, double rate);
   void push_by(const Modes& modes, const Vector& force, Vector& out) const;
-  [[nodiscard]] Complexes branch_share(const Modes& s, std::size_t branch) const noexcept;
-  void strain_modes(const RingHarmonic& of, const Modes& s, Vector& out) const;
+  [[nodiscard]] BranchStep branches(std::size_t harmonic) const noexcept {
+    return {model_.branches, harmonics_[harmonic].squares, modes_[harmonic].turn, settings_.dt};
+  }
   void relax_modes();
   void shift_modes();
   void twist_modes();
@@ -310,7 +295,7 @@ class RingWheel {
   }
   [[nodiscard]] bool is_whole() const noexcept { return ring_.n_sectors() == 1; }
   [[nodiscard]] double residual_stored() const noexcept {
-    return creep_ ? creep_->stored(shares_) : 0.5 * products().end;
+    return creep_ ? creep_->memory().stored(shares_) : 0.5 * products().end;
   }
   /// None of a ring of one sector, whose modes are in real_.
   [[nodiscard]] std::span<const RingHarmonic> waves_of_sectors() const noexcept {

@@ -80,34 +80,14 @@ void RingWheel::account_modes(const WheelMotion& m, WheelEnergy& e) const {
 
 /// What viscous branches of the modes store and take, and the work against the forces of the modes.
 void RingWheel::account_branches(WheelEnergy& e) const {
-  const double dt = settings_.dt;
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    const Modes& s = modes_[h];
-    const RingHarmonic& of = harmonics_[h];
-    const double n = of.weight() * ring_.n_sectors();
-    for (Index j = 0, r = of.squares.size(); j < r; ++j) {
-      const double square = n * of.squares[j];
-      Complexes strain = 0.5 * (s.before[j] + s.state[j]);
-      e.stored += 0.5 * square * std::norm(s.state[j]);
-      for (std::size_t b = 0; b < model_.branches.size(); ++b) {
-        const fem::ViscousBranch& branch = model_.branches[b];
-        const auto column = static_cast<Index>(b);
-        const double stiffness = branch.relative_modulus * square;
-        const double energy = 0.5 * stiffness * std::norm(s.strain(j, column));
-        e.elastic += energy;
-        e.stored += energy;
-        e.viscous += dt / branch.time * stiffness * std::norm(s.strain_mean(j, column));
-        strain += branch.relative_modulus * s.strain_mean(j, column);
-      }
-      e.internal +=
-          dt * square * (std::conj(0.5 * (s.before[r + j] + s.state[r + j])) * strain).real();
-    }
-  }
+  for (std::size_t h = 0; h < modes_.size(); ++h)
+    modes_[h].strain.account(branches(h), modes_[h].before, modes_[h].state,
+                             harmonics_[h].weight() * ring_.n_sectors(), e);
 }
 
 /// What the residual of a viscous wheel stores and takes.
 RingWheel::Products RingWheel::account_creep(WheelEnergy& e) const {
-  const CreepEnergy of = creep_->energy(shares_);
+  const CreepEnergy of = creep_->memory().energy(shares_);
   e.by_residual = of.by_stiffness;
   e.viscous += of.lost - of.by_stiffness;
   e.internal += of.work - of.by_stiffness;

@@ -30,7 +30,7 @@ void RingWheel::begin(const WheelMotion& m) {
   if (creep_) creep_->clear();
   if (sliding_) sliding_->clear();
   for (Modes& s : modes_) {
-    s.strain.setZero();
+    s.strain.end.setZero();
     s.state.setZero();
     s.force.setZero();
   }

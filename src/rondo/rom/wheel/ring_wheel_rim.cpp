@@ -191,7 +191,7 @@ void RingWheel::turn_modes(double angle) {
     const Complex back = rotation(-harmonics_[h].k * angle);
     modes_[h].state *= Complexes(back.re, back.im);
     modes_[h].force *= Complexes(back.re, back.im);
-    modes_[h].strain *= Complexes(back.re, back.im);
+    modes_[h].strain.end *= Complexes(back.re, back.im);
   }
 }
 

@@ -7,49 +7,13 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/rom/wheel/saved_numbers.hpp"
 
 namespace rondo::rom {
 namespace {
 
 using contact::Status;
 using Eigen::Index;
-
-template <class Complexes>
-void put(const Complexes& from, std::vector<double>& to) {
-  for (const std::complex<double>& x : from) to.insert(to.end(), {x.real(), x.imag()});
-}
-
-/// Reads numbers one after the other.
-class Reader {
- public:
-  explicit Reader(std::span<const double> numbers) : left_(numbers) {}
-  double next() {
-    RONDO_DEMAND(!left_.empty());
-    const double x = left_.front();
-    left_ = left_.subspan(1);
-    return x;
-  }
-  Vec2 vec() {
-    const double x = next();
-    return {x, next()};
-  }
-  template <class Complexes>
-  void fill(Complexes&& to) {
-    for (std::complex<double>& x : to) {
-      const Vec2 parts = vec();
-      x = {parts.x, parts.y};
-    }
-  }
-  std::span<const double> take(std::size_t count) {
-    RONDO_DEMAND(count <= left_.size(), count, left_.size());
-    const std::span<const double> taken = left_.first(count);
-    left_ = left_.subspan(count);
-    return taken;
-  }
-
- private:
-  std::span<const double> left_;
-};
 
 }  // namespace
 
@@ -60,9 +24,8 @@ std::size_t RingWheel::n_numbers(const Ring& ring, const WheelModel& model,
   for (const RingHarmonic& h : model.harmonics) n += per_mode * h.squares.size();
   const std::size_t nodes = ring.contact.size() * at(ring.n_sectors());
   const std::size_t creep =
-      model.creep.empty()
-          ? 0
-          : CreepField::n_numbers(model.creep.size(), model.residuals.size(), nodes);
+      model.creep.empty() ? 0
+                          : CreepField::n_saved(model.creep.size(), model.residuals.size(), nodes);
   const std::size_t sliding = friction.is_constant() ? 0 : SlidingMemory::numbers_of_node * nodes;
   return at(n) + creep + sliding + numbers_of_node * nodes;
 }
@@ -90,9 +53,9 @@ std::vector<double> RingWheel::save() const {
   for (const Modes& s : modes_) {
     put(s.state, out);
     put(s.force, out);
-    for (Index b = 0; b < s.strain.cols(); ++b) put(s.strain.col(b), out);
+    for (Index b = 0; b < s.strain.end.cols(); ++b) put(s.strain.end.col(b), out);
   }
-  if (creep_) creep_->save(out);
+  if (creep_) creep_->memory().save(out);
   if (sliding_) sliding_->save(out);
   for (const Memory& m : memory_) {
     for (const Vec2 x : {m.force, m.filtered, m.place[0], m.place[1], m.place[2]})
@@ -105,7 +68,7 @@ std::vector<double> RingWheel::save() const {
 
 void RingWheel::restore(std::span<const double> numbers) {
   RONDO_DEMAND(is_saved(ring_, model_, settings_.friction, numbers), numbers.size());
-  Reader from(numbers);
+  SavedNumbers from(numbers);
   const double spin = from.next();
   if (!has_matrices_ || spin_rate_ != 0.0 || spin_ != spin) {
     spin_ = spin;
@@ -115,11 +78,11 @@ void RingWheel::restore(std::span<const double> numbers) {
   for (Modes& s : modes_) {
     from.fill(s.state);
     from.fill(s.force);
-    for (Index b = 0; b < s.strain.cols(); ++b) from.fill(s.strain.col(b));
+    for (Index b = 0; b < s.strain.end.cols(); ++b) from.fill(s.strain.end.col(b));
   }
   if (creep_)
     creep_->restore(from.take(
-        CreepField::n_numbers(model_.creep.size(), model_.residuals.size(), memory_.size())));
+        CreepField::n_saved(model_.creep.size(), model_.residuals.size(), memory_.size())));
   if (sliding_) sliding_->restore(from.take(SlidingMemory::numbers_of_node * memory_.size()));
   move_contact();
   active_.clear();
@@ -127,9 +90,9 @@ void RingWheel::restore(std::span<const double> numbers) {
   for (std::size_t node = 0; node < memory_.size(); ++node) {
     Memory& m = memory_[node];
     m = {};
-    m.force = from.vec();
-    m.filtered = m.filtered_before = from.vec();
-    for (Vec2& place : m.place) place = from.vec();
+    m.force = from.vec2();
+    m.filtered = m.filtered_before = from.vec2();
+    for (Vec2& place : m.place) place = from.vec2();
     for (double& gap : m.gap) gap = from.next();
     m.known = static_cast<int>(from.next());
     m.status = static_cast<Status>(static_cast<int>(from.next()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/rom/wheel/creep.hpp"
+#include "rondo/rom/wheel/creep/creep.hpp"
 
 #include <algorithm>
 #include <cmath>
