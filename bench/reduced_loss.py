@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reduced wheels of a viscous material, of a loss factor of .15 from 5 to 500 Hz, against steady rolling without
 friction and against full runs in time: mean vertical force, torque and loss of the material, and how they differ.
+`space` does so for box wheels in three dimensions.
 
-    bench/reduced_loss.py [OPTION of rondo run --reduced...]
+    bench/reduced_loss.py [space] [OPTION of rondo run --reduced...]
 """
 import json
 import pathlib
@@ -25,6 +26,13 @@ IN_TIME = {  # case, first time of the means [s], settings
     "wheel-driven": ("wheel-driven", 0.2),
     "rolling-treaded": ("rolling-treaded", 0.1, "time.end=0.2"),
     "rolling-spokes": ("rolling-spokes", 0.1, "time.end=0.2"),
+}
+BOXES = {"3×4×90": (), "6×8×180": ("disk.mesh.radial=6", "disk.mesh.axial=8", "disk.mesh.circumferential=180")}
+ROLLS_IN_SPACE = {  # of wheel3d-cornering: first time of the means [s], settings
+    "1°": (0.4, "time.end=0.5"),
+    "4°": (0.4, "time.end=0.5", "motion.slip_angle=0.0698"),
+    "its spin from 33.8 to 20 rad/s": (0.2, "time.end=0.3",
+                                       "motion.angular_velocity=[[0,33.76455],[0.1,33.76455],[0.2,20]]"),
 }
 
 
@@ -69,10 +77,35 @@ def against_full(folder, options):
         yield name, figures(folder, begin), full
 
 
+def box_against_steady(folder, options):
+    for name, mesh in BOXES.items():
+        rolls = (*FREE, *mesh, "motion.slip_angle=0")
+        run(folder, "wheel3d-cornering", (*rolls, "time.end=0.6"), "--reduced", *options)
+        reduced = figures(folder, 0.45)
+        for inertia in ("waves", "all"):
+            told = run(folder, "wheel3d-steady", (*rolls, "analysis.samples_per_sector=16",
+                                                  "analysis.massless_contact=true",
+                                                  f"analysis.inertia=\"{inertia}\""))["steady"]
+            yield f"{name}, steady, {inertia}", reduced, [
+                told["force_x"], told["force_y"], told["torque"], told["power"]["viscosity"]]
+
+
+def box_against_full(folder, options):
+    for name, (begin, *settings) in ROLLS_IN_SPACE.items():
+        settings.append("output.history_interval=0")
+        run(folder, "wheel3d-cornering", settings)
+        full = figures(folder, begin)
+        run(folder, "wheel3d-cornering", settings, "--reduced", *options)
+        yield name, figures(folder, begin), full
+
+
 def main():
+    options, tables = sys.argv[1:], (against_steady, against_full)
+    if options[:1] == ["space"]:
+        options, tables = options[1:], (box_against_steady, box_against_full)
     with tempfile.TemporaryDirectory() as folder:
-        for rows in (against_steady, against_full):
-            table(rows(pathlib.Path(folder) / "run", sys.argv[1:]))
+        for rows in tables:
+            table(rows(pathlib.Path(folder) / "run", options))
 
 
 if __name__ == "__main__":

@@ -119,6 +119,34 @@ class AgainstRuns(SpaceTest):
         work = np.cumsum(power) * STEP
         np.testing.assert_allclose(np.asarray(own["work_held"])[-200:], work, rtol=0, atol=2e-6 * np.abs(work).max())
 
+    def test_a_viscous_wheel_is_its_run_and_goes_on_to_the_same_bits(self):
+        """The matrices of the creep between the three spins of the FMU make 1e-7 of the force."""
+        loss = ("material.loss_factor=0.15", "material.loss_band=[5.0, 500.0]", "motion.slip_angle=0")
+        down = ("motion.height=[[0,0.301],[1,-0.099]]", "output.history_interval=0", "time.end=0.04", *loss)
+        made("run", CASE, "--reduced", "--reduced-step", STEP, "-o", self.folder / "run",
+             *(word for s in down for word in ("--set", s)))
+        own = history(self.folder / "run")
+        fmu = self.instance(self.wheel_of("viscous", CASE, *down))
+
+        def lead(first, last):
+            rows = []
+            for k in range(first, last):
+                fmu.step(k * STEP, STEP)
+                rows.append(fmu.get("contact_force_x", "contact_force_z"))
+            return np.array(rows)
+
+        rows = lead(0, 100)
+        saved = fmu.save()
+        late = lead(100, 200)
+        fmu.restore(saved)
+        self.addCleanup(fmu.free_state, saved)
+        np.testing.assert_array_equal(lead(100, 200), late)
+        rows = np.concatenate([rows, late])
+        largest = np.abs(rows[:, 1]).max()
+        self.assertGreater(largest, 3.5e4)
+        for i, name in enumerate(("force_x", "force_y")):
+            np.testing.assert_allclose(rows[:, i], np.asarray(own[name])[-200:], rtol=0, atol=1e-6 * largest, err_msg=name)
+
     def test_a_circle_has_the_turn_slip_of_steady_rolling(self):
         """At a slip angle of 0 on a circle of 2 m: the ground pushes outwards, and turns against the turn."""
         left = self.landed(lead=lambda t: {"yaw_rate": 0.5 * SPEED * min(1.0, t / 0.02)})

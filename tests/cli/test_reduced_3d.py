@@ -215,7 +215,6 @@ class Reduced(ProgramTest):
     def test_what_it_cannot_do_is_refused(self):
         for case, given, options, words in (
                 (TYRE, ['inflation.nonlinear="cords"'], (), "inflation.nonlinear"),
-                (CORNERING, ["material.viscosity=[{relative_modulus=0.3,time=1e-3}]"], (), "viscous branches"),
                 (CORNERING, ["ground.restitution=0.5"], (), "restitution"),
                 (ROOT / "cases" / "wheel3d-tyre.toml", [], (), "load.pressure[0].value"),
                 (CORNERING, [], ("--law-residual", "1"), "1e-12 to 0.001"),

@@ -110,8 +110,6 @@ class Wheel(WheelTest):
 
         refused("no restitution", "ground.restitution=0.5")
         refused("is a law of velocities", 'ground.impact="energy-safe"')
-        refused("and no viscous branches", "material.viscosity=[{relative_modulus=0.3, time=1e-3}]",
-                case=(ROOT / "cases" / "wheel3d-cornering.toml").read_text())
         refused("there is no ground", case=ROLLING.replace(
             '[ground]\nprofile = "flat"\nfriction = 0.4\n', ""))
         refused("moves in time", case=STEADY)

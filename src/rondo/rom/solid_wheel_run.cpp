@@ -25,13 +25,15 @@ SolidWheelSettings settings_of(const dynamics::Model& model, double law_residual
 }  // namespace
 
 WheelModel make_solid_model(const SolidRing& ring, std::vector<RingHarmonic> harmonics,
-                            const KnownSpins& spins) {
+                            const KnownSpins& spins, const WheelViscosity& viscosity) {
   const OneBlasThread one;
   WheelModel wheel;
   wheel.harmonics = std::move(harmonics);
   for (const Vec3 x : ring.place) wheel.radius = std::max(wheel.radius, norm(x.plane()));
+  take_viscosity(viscosity, wheel);
   spread_residuals(spins, wheel, [&](double square) -> CreepResidual {
-    return {solid_residual(ring, wheel.harmonics, square), {}, {}};
+    if (wheel.creep.empty()) return {solid_residual(ring, wheel.harmonics, square), {}, {}};
+    return solid_creep_residual(ring, wheel.harmonics, square, wheel.creep);
   });
   return wheel;
 }
@@ -45,6 +47,7 @@ SolidWheelRun::SolidWheelRun(const dynamics::Model& model, const SolidRing& ring
       figures_(figures),
       candidate_(dynamics::places_among(model.contact->nodes, model.n_nodes())),
       wheel_(ring, wheel, *model.contact, settings_of(model, law_residual)),
+      n_sums_(sums_of(wheel)),
       aside_(hub.aside),
       camber_(model.motion.camber),
       camber_rate_(hub.camber_rate),
@@ -72,13 +75,17 @@ void SolidWheelRun::begin(const dynamics::State& at_start) {
     lateral_force_ = wheel_.lateral_force();
     set_frame(start);
   }
-  ledger_.compare(energy_of(wheel_.energy_at_start(!rim_)));
+  const WheelEnergy energy = wheel_.energy_at_start(!rim_);
+  sums_.start(energy);
+  ledger_.compare(energy_of(energy));
 }
 
 dynamics::StepEnergy SolidWheelRun::energy_of(const WheelEnergy& wheel) const {
   dynamics::StepEnergy energy;
   energy.kinetic = wheel.kinetic;
   energy.strain = wheel.elastic + wheel.residual;
+  // The work against the forces, as of full runs, less what the spin softens.
+  if (is_viscous()) energy.strain += sums_.internal_work() - wheel.stored;
   if (!rim_) return energy;
   rim_->add_energy(energy);
   const double body = rim_->whole_mass() - model_.rim->mass;
@@ -257,6 +264,10 @@ void SolidWheelRun::step(dynamics::StepReport& report) {
   works.dissipation_stiffness = wheel.energy.by_stiffness + wheel.energy.by_residual;
   works.scheme += wheel.energy.scheme;
   ledger_.add_works(works);
+  if (is_viscous()) {
+    sums_.add(wheel.energy);
+    sums_.report(wheel.energy, report.material);
+  }
   ledger_.compare(energy_of(wheel.energy));
   report.balance = ledger_.last();
   list_contacts(wheel);
@@ -290,7 +301,7 @@ void SolidWheelRun::fields(dynamics::State& state) const noexcept {
 
 std::size_t SolidWheelRun::n_numbers(const dynamics::Model& model, const SolidRing& ring,
                                      const WheelModel& wheel) noexcept {
-  return SolidWheel::n_numbers(ring, wheel) +
+  return SolidWheel::n_numbers(ring, wheel) + sums_of(wheel) +
          (model.rim ? WheelRim::n_numbers + lateral_numbers : 0);
 }
 
@@ -312,6 +323,7 @@ dynamics::SavedState SolidWheelRun::save() const {
                       {lateral_, lateral_momentum_, lateral_force_, frame_.center.z,
                        frame_.advance_before.z, camber_, yaw_, camber_rate_, yaw_rate_});
   }
+  if (is_viscous()) sums_.save(saved.ring);
   saved.ledger = ledger_.save();
   return saved;
 }
@@ -320,6 +332,10 @@ void SolidWheelRun::restore(const dynamics::SavedState& saved) {
   n_ = saved.step;
   std::span<const double> numbers = saved.ring;
   ledger_.restore(saved.ledger);
+  if (is_viscous()) {
+    sums_.restore(numbers.last(n_sums_));
+    numbers = numbers.first(numbers.size() - n_sums_);
+  }
   if (!rim_) {
     wheel_.restore(numbers);
     frame_ = dynamics::frame_step(model_.motion, n_, model_.dt);

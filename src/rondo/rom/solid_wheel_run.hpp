@@ -15,7 +15,8 @@ namespace rondo::rom {
 /// @param known spins of the run; as make_wheel_model()
 [[nodiscard]] WheelModel make_solid_model(const SolidRing& ring,
                                           std::vector<RingHarmonic> harmonics,
-                                          const KnownSpins& spins);
+                                          const KnownSpins& spins,
+                                          const WheelViscosity& viscosity = {});
 
 /// Velocities of a hub that is led from outside.
 struct HubVelocity {
@@ -78,6 +79,7 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
   void turn_hub(SolidMotion& motion);
   void set_frame(const SolidMotion& motion);
   [[nodiscard]] double lateral_rate(double t) const;
+  [[nodiscard]] bool is_viscous() const noexcept { return n_sums_ > 0; }
   [[nodiscard]] dynamics::StepEnergy energy_of(const WheelEnergy& wheel) const;
   void count(const SolidWheelReport& wheel, double seconds);
   void report_contact(const SolidWheelReport& wheel, dynamics::ContactReport& report) const;
@@ -93,6 +95,8 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
   std::vector<int> candidate_;  ///< (n) place among the candidates; -1: none
   SolidWheel wheel_;
   std::optional<WheelRim> rim_;
+  const std::size_t n_sums_;  ///< numbers of the sums of a viscous wheel
+  MaterialSums sums_;
   dynamics::Ledger ledger_;
   const double aside_;         ///< place of the center along t2 at t = 0          [m]
   long long n_ = 0;            ///< number of steps made

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <tuple>
+#include <utility>
 
 #include "rolling_box.hpp"
 #include "rolling_wheel.hpp"
@@ -55,17 +56,22 @@ INSTANTIATE_TEST_SUITE_P(Wheels, Steps,
                          });
 
 TEST(SolidSteps, AllocateNothing) {
-  const rolling_box::RollingBox rolling;
-  SolidWheel wheel = rolling.wheel();
-  wheel.start(rolling_box::RollingBox::motion(-1));
-  std::size_t contacts = 0;
-  long before = 0;
-  for (int n = 0; n < 90; ++n) {
-    if (n == 60) before = test::allocations();
-    contacts = wheel.step(rolling_box::RollingBox::motion(n)).contacts.size();
+  const OneBlasThread one;
+  const WheelViscosity elastic{{}, 2e-5}, viscous{{{0.2, 1e-3}, {0.1, 1e-2}}, 2e-5};
+  for (const auto& [loss, spin_rate] : {std::pair{elastic, 0.0}, std::pair{elastic, 50.0},
+                                        std::pair{viscous, 0.0}, std::pair{viscous, 50.0}}) {
+    const rolling_box::RollingBox rolling(loss, spin_rate);
+    SolidWheel wheel = rolling.wheel();
+    wheel.start(rolling.start());
+    std::size_t contacts = 0;
+    long before = 0;
+    for (int n = 0; n < 90; ++n) {
+      if (n == 60) before = test::allocations();
+      contacts = wheel.step(rolling.motion(n)).contacts.size();
+    }
+    EXPECT_EQ(test::allocations() - before, 0) << loss.branches.size() << " " << spin_rate;
+    EXPECT_GT(contacts, 10U);
   }
-  EXPECT_EQ(test::allocations() - before, 0);
-  EXPECT_GT(contacts, 10U);
 }
 
 }  // namespace rondo::rom::rolling_wheel

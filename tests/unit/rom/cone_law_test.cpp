@@ -234,16 +234,16 @@ INSTANTIATE_TEST_SUITE_P(Frictions, WheelWindow, testing::Values(0.0, 0.3, 1.0),
 TEST(SolidWheel, GoesOnFromItsNumbersToTheSameBits) {
   const RollingBox rolling;
   SolidWheel wheel = rolling.wheel();
-  wheel.start(RollingBox::motion(-1));
+  wheel.start(rolling.motion(-1));
   for (int n = 0; n < 30; ++n) {
-    const SolidWheelReport report = wheel.step(RollingBox::motion(n));
+    const SolidWheelReport report = wheel.step(rolling.motion(n));
     ASSERT_LE(report.law_residual, 1e-6);
   }
   SolidWheel other = rolling.wheel();
   other.restore(wheel.save());
   for (int n = 30; n < 40; ++n) {
-    const SolidWheelReport a = wheel.step(RollingBox::motion(n));
-    const SolidWheelReport b = other.step(RollingBox::motion(n));
+    const SolidWheelReport a = wheel.step(rolling.motion(n));
+    const SolidWheelReport b = other.step(rolling.motion(n));
     ASSERT_GT(a.contacts.size(), 10U);
     ASSERT_EQ(a.contacts.size(), b.contacts.size());
     for (std::size_t i = 0; i < a.contacts.size(); ++i)

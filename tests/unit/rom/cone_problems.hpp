@@ -11,7 +11,7 @@
 #include "rondo/contact/cone.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/rom/solid/cone_law.hpp"
-#include "rondo/rom/solid/solid_ring.hpp"
+#include "rondo/rom/solid/solid_residual.hpp"
 
 namespace rondo::rom::cone_problems {
 

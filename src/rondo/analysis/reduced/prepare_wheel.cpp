@@ -161,7 +161,7 @@ std::optional<std::size_t> unlike_region(const Case& c, const Setup& setup) {
     return fem::branches_of(fem::material_of(setup.mesh, setup.materials, cell));
   };
   bool alike = true, has_common = false;
-  for (std::size_t e = 0; e < setup.mesh.cells.size(); ++e) {
+  for (std::size_t e = 0; e < setup.mesh.n_elements(); ++e) {
     alike = alike && branches(e) == branches(0);
     has_common = has_common || branches(e) == fem::branches_of(c.material);
   }
@@ -174,11 +174,34 @@ std::optional<std::size_t> unlike_region(const Case& c, const Setup& setup) {
   return static_cast<std::size_t>(found - c.regions.begin());
 }
 
+/// Whether the branches of a wheel in three dimensions resist what its stiffness resists, up to the
+/// order in which elements are summed. Cords and the inflation of a tyre do not creep, and branches
+/// of rubber resist changes of shape alone.
+bool all_creeps(const dynamics::SolidBody& body) {
+  if (body.viscous.size() != 1) return false;
+  const auto &all = body.sector.entries, &part = body.viscous.front().stiffness.entries;
+  if (part.size() != all.size()) return false;
+  double largest = 0.0, difference = 0.0;
+  for (std::size_t e = 0; e < all.size(); ++e)
+    for (std::size_t i = 0; i < all[e].block.size(); ++i) {
+      largest = std::max(largest, std::abs(all[e].block[i]));
+      difference = std::max(difference, std::abs(all[e].block[i] - part[e].block[i]));
+    }
+  return difference <= 1e-12 * largest;
+}
+
 /// The residual of a wheel creeps by one spectrum, which a body has whose branches are the same
 /// everywhere.
 void refuse_unlike_branches(const Case& c, const Setup& setup) {
-  if (setup.model.viscous.empty()) return;
+  const std::optional<dynamics::SolidBody>& solid = setup.model.solid;
+  if (solid ? solid->viscous.empty() : setup.model.viscous.empty()) return;
   const std::optional<std::size_t> region = unlike_region(c, setup);
+  if (!region && solid && !all_creeps(*solid))
+    throw case_error(c, "material",
+                     "cords and inflation do not creep, and branches of rubber resist changes of "
+                     "shape alone: the residual of a reduced wheel creeps by one spectrum",
+                     "no loss_factor and no viscosity, with [damping] in their place; or the full "
+                     "run, without --reduced");
   if (!region) return;
   throw case_error(c, item_of("material.region", *region),
                    "regions differ in their viscous branches, and what no mode of a reduced wheel "
@@ -294,6 +317,8 @@ void warn_of(const Case& c, const Setup& setup, bool led, PreparedWheel& w) {
 
 rom::WheelViscosity viscosity_of(const Setup& setup) {
   const dynamics::Model& model = setup.model;
+  if (model.solid && !model.solid->viscous.empty())
+    return {model.solid->viscous.front().branches, model.stiffness_damping};
   if (model.viscous.empty()) return {};
   return {model.viscous.front().branches, model.stiffness_damping};
 }
@@ -395,7 +420,7 @@ void complete_wheel(const Case& c, std::optional<double> led,
   const rom::KnownSpins spins = spins_of(c, led, wheel.expected.spin, radius_of(setup));
   const rom::WheelViscosity viscosity = viscosity_of(setup);
   if (wheel.solid) {
-    wheel.model = rom::make_solid_model(*wheel.solid, std::move(harmonics), spins);
+    wheel.model = rom::make_solid_model(*wheel.solid, std::move(harmonics), spins, viscosity);
   } else if (wheel.whole) {
     const rom::WholeMesh whole = whole_of(setup);
     wheel.model =

@@ -126,8 +126,6 @@ constexpr std::array limits{
           "a reduced disk is one that its rim holds, on the ground, without pressures"},
     Limit{has::nonlinear_cords, has::reduced, solid_reduced,
           "a reduced wheel is linear about its inflated state"},
-    Limit{has::viscosity, has::reduced, solid_reduced,
-          "a reduced wheel in three dimensions has stiffness damping, and no viscous branches"},
     // What no step supports ----------------------------------------------------------------------
     Limit{has::free_bodies, has::three_dimensions, any,
           "a wheel in three dimensions is held by its rim"},

@@ -3,7 +3,6 @@
 /// no mass (docs/reduced.md): what wheel/ring_harmonics.hpp has of a disk, with a third component,
 /// along the axle. Matrices of a harmonic are sparse here, because a section has many nodes.
 #pragma once
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -42,29 +41,5 @@ struct SolidRing {
 /// @throws std::bad_alloc
 [[nodiscard]] std::vector<RingHarmonic> solid_modes(const SolidRing& ring,
                                                     const ModeChoice& choice);
-
-/// Finds the tables that ring_residual() finds for a disk, in its convected form. `fields` of the
-/// result stays empty.
-[[nodiscard]] RingResidual solid_residual(const SolidRing& ring,
-                                          std::span<const RingHarmonic> harmonics,
-                                          double spin_squared);
-
-/// Displacement of all rows beyond the modes by forces on the contact nodes that stand still in
-/// space, harmonic by harmonic, at one spin.
-class SolidFields {
- public:
-  /// Ring and harmonics must outlive it.
-  SolidFields(const SolidRing& ring, std::span<const RingHarmonic> harmonics, double spin);
-
-  [[nodiscard]] double spin() const noexcept { return spin_; }
-  /// @param forces (3C, N/2 + 1) [N] @return (rows, N/2 + 1) [m]
-  [[nodiscard]] Eigen::MatrixXcd operator()(const Eigen::MatrixXcd& forces) const;
-
- private:
-  const SolidRing& ring_;
-  double spin_;
-  /// (N/2 + 1) What forces on the rows do beyond the modes.
-  std::vector<std::function<Eigen::VectorXcd(const Eigen::VectorXcd&)>> beyond_;
-};
 
 }  // namespace rondo::rom

@@ -18,7 +18,8 @@ constexpr int spare_sectors = 4;
 
 }  // namespace
 
-SolidWheel::Modes::Modes(const RingHarmonic& of) {
+SolidWheel::Modes::Modes(const RingHarmonic& of, std::size_t n_branches)
+    : strain(of.squares.size(), n_branches) {
   const Index r = of.squares.size(), c = of.contact.rows();
   for (Vector* v : {&state, &before, &work, &shift, &lift, &twist}) v->setZero(2 * r);
   for (Vector* v : {&force, &outside, &held, &pushed}) v->setZero(r);
@@ -56,7 +57,14 @@ SolidWheel::SolidWheel(const SolidRing& ring, const WheelModel& model,
     area_.push_back(ground.tributary[at(found - ground.nodes.begin())]);
   }
   centrifugal_ = residuals.front().centrifugal;
-  if (residuals.size() > 1) tables_.resize(residuals.front().blocks.size());
+  if (!model.creep.empty())
+    creep_.emplace(model.creep, residuals, model.later, ring.stiffness.turn,
+                   settings.stiffness_damping, settings.dt);
+  if (residuals.size() > 1 || creep_) {
+    tables_.resize(residuals.front().blocks.size());
+    made_.assign(at(ring.n_sectors()), -1);
+  }
+  in_sector_.resize(at(ring.n_contact()));
   near_.reserve(n);
   seen_.reserve(n);
   moved_.reserve(3 * n);
@@ -70,32 +78,56 @@ SolidWheel::SolidWheel(const SolidRing& ring, const WheelModel& model,
       return friction_at(candidate, slip, force);
     };
   contacts_.reserve(n);
-  for (const RingHarmonic& h : harmonics_) modes_.emplace_back(h);
+  for (const RingHarmonic& h : harmonics_) modes_.emplace_back(h, model.branches.size());
 }
 
 /// The residual of a spin.
 void SolidWheel::set_residual(double spin) {
   n_made_ = 0;
+  ++version_;
   if (tables_.empty()) return;
   const double square = spin * spin;
   centrifugal_.setZero();
-  Eigen::Map<Eigen::VectorXd> sum(tables_.data(), static_cast<Index>(tables_.size()));
-  sum.setZero();
   for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
     double share = 1.0;
     for (std::size_t b = 0; b < model_.residuals.size(); ++b)
       if (b != a) share *= (square - model_.squares[b]) / (model_.squares[a] - model_.squares[b]);
-    const RingResidual& of = model_.residuals[a];
-    centrifugal_ += share * of.centrifugal;
-    sum += share * Eigen::Map<const Eigen::VectorXd>(of.blocks.data(), sum.size());
+    shares_[a] = share;
+    centrifugal_ += share * model_.residuals[a].centrifugal;
   }
+  if (creep_) creep_->use(shares_);
 }
 
-/// G of a lag.
+/// G of a lag; at a spin between those of the model made when it is asked for, as few lags are.
 Eigen::Map<const Eigen::MatrixXd> SolidWheel::beyond(int lag) const {
-  const double* blocks = tables_.empty() ? model_.residuals.front().blocks.data() : tables_.data();
+  if (tables_.empty()) return model_.residuals.front().block(lag);
   const Index size = ring_.n_contact();
-  return {blocks + wrapped(lag) * size * size, size, size};
+  const int d = wrapped(lag);
+  double* const block = tables_.data() + d * size * size;
+  if (made_[at(d)] == version_) return {block, size, size};
+  made_[at(d)] = version_;
+  Eigen::Map<Eigen::MatrixXd> sum(block, size, size);
+  sum.setZero();
+  for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
+    const double share = shares_[a];
+    sum += (creep_ ? share * creep_->memory().new_at_once() : share) * model_.residuals[a].block(d);
+    if (creep_) sum += share * creep_->memory().new_later() * model_.later[a].block(d);
+  }
+  return {block, size, size};
+}
+
+/// What the residual of a node does by a force on another that has always been there.
+Eigen::Matrix3d SolidWheel::held(int to, int from) const {
+  const int lag = sector(to) - sector(from);
+  const Index row = Index{3} * local(to), column = Index{3} * local(from);
+  if (!creep_) return beyond(lag).block<3, 3>(row, column);
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (std::size_t a = 0; a < model_.residuals.size(); ++a)
+    sum +=
+        shares_[a] *
+        (creep_->memory().held_at_once() * model_.residuals[a].block(lag).block<3, 3>(row, column) +
+         creep_->memory().held_later() * model_.later[a].block(lag).block<3, 3>(row, column));
+  return sum;
 }
 
 /// What the residual of a node does by a force on another.
@@ -111,6 +143,7 @@ Vec3 SolidWheel::product(int to, int from, Vec3 force) const noexcept {
 
 /// What the residual of all nodes that are remembered does, by the tables of the spin.
 void SolidWheel::renew_residuals() {
+  if (creep_) return;
   for (const int to : seen_) {
     Vec3 u;
     for (const int from : seen_)
@@ -122,7 +155,9 @@ void SolidWheel::renew_residuals() {
 
 /// Finds the matrices of a harmonic. With h = ½Δt the middle of the step solves
 /// [c, -h; hL, c + hD] (y_m, p_m) = (y, p + hf).
-void SolidWheel::fill_step(const RingHarmonic& of, double spin, double rate, Modes& s) {
+void SolidWheel::fill_step(std::size_t harmonic, double spin, double rate) {
+  const RingHarmonic& of = harmonics_[harmonic];
+  Modes& s = modes_[harmonic];
   const double half = 0.5 * settings_.dt;
   s.turn = 1.0 + half * Complexes(0.0, of.k * spin);
   s.lever = half / s.turn;
@@ -131,11 +166,18 @@ void SolidWheel::fill_step(const RingHarmonic& of, double spin, double rate, Mod
   const auto damping = settings_.mass_damping + settings_.stiffness_damping * of.squares.array();
   s.step = 2.0 * half * spin * of.coriolis + half * s.lever * s.stiff;
   s.step.diagonal().array() += s.turn + half * damping;
+  branches(harmonic).add_to(s.step);
   s.factor.compute(s.step);
   s.inverse = s.factor.solve(s.one);
   const double share = settings_.theta * settings_.dt * of.weight() / ring_.n_sectors();
   s.reply.noalias() = s.inverse * of.contact.adjoint();
   s.answer.noalias() = share * s.lever * of.contact * s.reply;
+}
+
+/// The strains of the branches at the end of the step.
+void SolidWheel::relax_modes() {
+  for (std::size_t h = 0; h < modes_.size(); ++h)
+    modes_[h].strain.relax(branches(h), modes_[h].before, modes_[h].state);
 }
 
 /// (2r) What a force on the modes does in a step.
@@ -162,8 +204,7 @@ void SolidWheel::take_spin(const WheelMotion& m, double rate, double end) {
   spin_rate_ = rate;
   const double spin = rate == 0.0 ? end : (m.angle_next - m.angle) / settings_.dt;
   set_residual(end);
-  for (std::size_t h = 0; h < harmonics_.size(); ++h)
-    fill_step(harmonics_[h], spin, rate, modes_[h]);
+  for (std::size_t h = 0; h < harmonics_.size(); ++h) fill_step(h, spin, rate);
   if (other_spin && !tables_.empty()) renew_residuals();
   has_matrices_ = true;
   has_shift_ = false;
@@ -176,16 +217,15 @@ void SolidWheel::make_window() {
   const Index size = ring_.n_contact();
   window_.resize(size, n_made_);
   const double share = 1.0 - filter();
-  Eigen::MatrixXd block(size, size);
   for (int lag = 1 - n_made_; lag < n_made_; ++lag) {
-    block = share * beyond(lag);
+    block_ = share * beyond(lag);
     for (std::size_t h = 0; h < modes_.size(); ++h) {
       const Complex turn =
           ring_.stiffness
               .turn[at(static_cast<long long>(harmonics_[h].k) * wrapped(lag) % ring_.n_sectors())];
-      block += turn.re * modes_[h].answer.real() - turn.im * modes_[h].answer.imag();
+      block_ += turn.re * modes_[h].answer.real() - turn.im * modes_[h].answer.imag();
     }
-    window_.set(lag, block);
+    window_.set(lag, block_);
   }
 }
 
@@ -216,6 +256,7 @@ void SolidWheel::move_modes(const SolidMotion& motion) {
     s.pushed *= 0.5 * settings_.dt;
     s.pushed += p;
     s.pushed.noalias() -= s.lever * (s.stiff * y);
+    if (creep_) s.strain.take_from(branches(h), s.pushed);
     s.state.tail(r).noalias() = s.inverse * s.pushed;  // the middle
     s.state.head(r) = 2.0 * (y / s.turn + s.lever * s.state.tail(r)) - y;
     s.state.tail(r) = 2.0 * s.state.tail(r) - p;

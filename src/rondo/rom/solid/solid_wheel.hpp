@@ -8,14 +8,17 @@
 #include <array>
 #include <complex>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "rondo/contact/space/space_ground.hpp"
 #include "rondo/model/model.hpp"
 #include "rondo/rom/solid/cone_law.hpp"
-#include "rondo/rom/solid/solid_ring.hpp"
+#include "rondo/rom/solid/harmonic_creep.hpp"
+#include "rondo/rom/solid/solid_residual.hpp"
 #include "rondo/rom/solid/wheel_attitude.hpp"
+#include "rondo/rom/wheel/creep/branch_strains.hpp"
 #include "rondo/rom/wheel/ring_wheel.hpp"
 
 namespace rondo::rom {
@@ -140,7 +143,7 @@ class SolidWheel {
 
   /// The modes of a harmonic; their coefficients y and velocities p are one after the other.
   struct Modes {
-    explicit Modes(const RingHarmonic& of);
+    Modes(const RingHarmonic& of, std::size_t n_branches);
 
     Vector state, before;   ///< (2r) at the end of the last step, and of the one before
     Vector force, outside;  ///< (r) of the contact, φ_cᴴ λ; of the frame
@@ -149,6 +152,7 @@ class SolidWheel {
     Vector contact;         ///< (3C) φ_c y without new forces
     Vector answered;        ///< (3C) and what these do to it
     Vector pushed, work;    ///< (r), (2r)
+    BranchStrains strain;
     // fill_step() sets these for a step.
     Complexes turn, lever;  ///< c = 1 + ½Δt iks; ½Δt/c                                         [s]
     Matrix stiff;    ///< (r, r) ω² - s² P + ṡ J                                       [1/s²]
@@ -192,8 +196,12 @@ class SolidWheel {
   void use_spin(const SolidMotion& motion);
   void take_spin(const WheelMotion& motion, double rate, double end);
   void set_residual(double spin);
-  void fill_step(const RingHarmonic& of, double spin, double rate, Modes& modes);
+  void fill_step(std::size_t harmonic, double spin, double rate);
   void push_by(const Modes& modes, const Vector& force, Vector& out) const;
+  [[nodiscard]] BranchStep branches(std::size_t harmonic) const noexcept {
+    return {model_.branches, harmonics_[harmonic].squares, modes_[harmonic].turn, settings_.dt};
+  }
+  void relax_modes();
   void move_modes(const SolidMotion& motion);
   void shift_modes();
   void twist_modes();
@@ -212,6 +220,7 @@ class SolidWheel {
   void make_window();
   [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> beyond(int lag) const;
   [[nodiscard]] Vec3 product(int to, int from, Vec3 force) const noexcept;
+  [[nodiscard]] Eigen::Matrix3d held(int to, int from) const;
   void renew_residuals();
   [[nodiscard]] Vec3 modal(int node, Complex wave, const Vector Modes::*of) const noexcept;
   [[nodiscard]] bool is_low(int sector, const SolidMotion& motion) const noexcept;
@@ -236,19 +245,30 @@ class SolidWheel {
   void take_forces(const SolidMotion& motion, SolidWheelReport& report);
   void push_modes(const Near& near);
   void filter_forces();
+  void creep_under_forces();
   void account_modes(const SolidMotion& motion, SolidWheelReport& report) const;
   void account(const SolidMotion& motion, SolidWheelReport& report);
+  void account_branches(WheelEnergy& energy) const;
+  /// Twice the energies of the residual.
+  struct Products {
+    double end = 0.0, start = 0.0;
+  };
+  [[nodiscard]] Products account_residual(WheelEnergy& energy) const;
   [[nodiscard]] double work_on_modes() const;
   [[nodiscard]] double work_of_turning(const SolidMotion& motion) const;
   void remember(const SolidMotion& motion);
   void begin(const SolidMotion& motion);
   void press_at_start(const SolidMotion& motion, std::span<const Vec3> u);
   void project(double angle, std::span<const Vec3> field, bool velocity);
-  template <class Coefficients, class Filtered>
+  template <class Filtered>
+  [[nodiscard]] HarmonicCreep::Lagging amplitudes_of(Filtered&& filtered) const;
+  template <class Coefficients>
   void write_field(double angle, const Eigen::VectorXd& constant, Coefficients&& coefficients,
-                   Filtered&& filtered, std::span<Vec3> field) const;
+                   const HarmonicCreep::Lagging& forces, std::span<Vec3> field) const;
 
+  /// Share of a filtered force that a step leaves; those of viscous materials are in creep_.
   [[nodiscard]] double filter() const noexcept {
+    if (creep_) return 0.0;
     const double lag = settings_.stiffness_damping / settings_.dt;
     return lag / (1.0 + lag);
   }
@@ -282,17 +302,25 @@ class SolidWheel {
   // These members belong to the spin of the matrices.
   double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
   bool has_matrices_ = false, new_table_ = false, has_shift_ = false, on_moving_rim_ = false;
-  std::vector<double> tables_;    ///< (N, 3C, 3C) G at a spin between those of the model [m/N]
+  /// (N, 3C, 3C) G at a spin between those of the model; of a viscous wheel what a new force does
+  /// at the end of its step. Blocks of this version of the spin are made [m/N]
+  mutable std::vector<double> tables_;
+  mutable std::vector<long long> made_;  ///< (N) version of each block
+  long long version_ = 0;
+  TableShares shares_{1.0};       ///< of the model's residuals
   Eigen::VectorXd centrifugal_;   ///< (rows) of the spin at its end                       [m]
   double residual_before_ = 0.0;  ///< energy at its start by the spin of the step before  [J]
   mutable std::unique_ptr<SolidFields> field_;  ///< at the spin of the last one that was asked for
   std::vector<Modes> modes_;
-  std::vector<Memory> memory_;  ///< (N C)
-  GroundForces last_;           ///< at the end of the last step
+  std::vector<Memory> memory_;             ///< (N C)
+  std::optional<HarmonicCreep> creep_;     ///< of viscous materials, in place of filtered forces
+  mutable std::vector<double> in_sector_;  ///< (3C) a field of it
+  GroundForces last_;                      ///< at the end of the last step
   // Of the window: whole sectors, of which some node is near the ground or remembers a force.
   int first_ = 0, n_window_ = 0;  ///< first sector, number of sectors
   int n_made_ = 0;                ///< sectors for which the compliance is made
   WindowCompliance window_;
+  Eigen::MatrixXd block_;            ///< (3C, 3C) of it, while it is made
   std::vector<Near> near_;           ///< (n_window, C)
   std::vector<int> seen_;            ///< nodes of the last step's near_
   std::vector<double> moved_;        ///< (3 near) by the forces of the law, own axes            [m]

@@ -64,18 +64,22 @@ void SolidWheel::find_near(const SolidMotion& m) {
   make_window();
   near_.clear();
   const Complex frame = rotation(m.plane.angle_next), waves = rotation(waves_at(m.plane));
-  const double left = filter();
+  const double left = creep_ ? 1.0 : filter();
   for (int d = 0; d < n_window_; ++d) {
     const int j = wrapped(first_ + d);
     const Complex turn = frame * ring_.stiffness.turn[at(j)],
                   wave = waves * ring_.stiffness.turn[at(j)];
+    if (creep_) creep_->write(creep_->left(), j, in_sector_);
     for (int c = 0; c < n_contact_; ++c) {
       Near& near = near_.emplace_back();
       near.node = j * n_contact_ + c;
       near.turn = turn;
       near.wave = wave;
       Memory& memory = memory_of(near.node);
-      if (memory.known == 0) {
+      if (creep_) {
+        const double* u = &in_sector_[at(3 * c)];
+        memory.residual = {u[0], u[1], u[2]};
+      } else if (memory.known == 0) {
         memory.residual = {};
         for (const int from : seen_)
           if (const Vec3 force = memory_of(from).filtered; force != Vec3{})
@@ -349,7 +353,10 @@ void SolidWheel::take_forces(const SolidMotion& m, SolidWheelReport& report) {
     s.state += s.work;
     s.answered.noalias() = harmonics_[h].contact * s.work.head(r);
   }
-  filter_forces();
+  if (creep_)
+    creep_under_forces();
+  else
+    filter_forces();
   report.mean.force = settings_.theta * report.end.force + (1.0 - settings_.theta) * last_.force;
   report.mean.moment = settings_.theta * report.end.moment + (1.0 - settings_.theta) * last_.moment;
   report.mean_torque = m.attitude_next.from_fixed(report.mean.moment).z;
@@ -370,6 +377,17 @@ void SolidWheel::filter_forces() {
     memory.residual =
         left * memory.residual + moved - modal(near.node, near.wave, &Modes::answered);
   }
+}
+
+/// What viscous materials remember of the forces.
+void SolidWheel::creep_under_forces() {
+  creep_->clear_forces();
+  for (const Near& near : near_)
+    if (near.force != Vec3{})
+      creep_->add_force(sector(near.node), Index{3} * local(near.node), near.force);
+  creep_->step();
+  creep_->use(shares_);
+  relax_modes();
 }
 
 /// Places, gaps and forces at the end of the step, and what the modes do to contact nodes.

@@ -14,6 +14,7 @@ using Eigen::Index;
 
 /// Energy of the residual at the end of the last step.
 double SolidWheel::residual_stored() const noexcept {
+  if (creep_) return creep_->memory().stored(shares_);
   double sum = 0.0;
   for (const int node : seen_) sum += dot(memory_of(node).filtered, memory_of(node).residual);
   return 0.5 * sum;
@@ -88,11 +89,22 @@ void SolidWheel::account_modes(const SolidMotion& motion, SolidWheelReport& repo
   }
 }
 
-void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
-  const WheelMotion& m = motion.plane;
-  const double dt = settings_.dt;
-  WheelEnergy& e = report.energy;
-  account_modes(motion, report);
+/// What viscous branches of the modes store and take, and the work against the forces of the modes.
+void SolidWheel::account_branches(WheelEnergy& e) const {
+  for (std::size_t h = 0; h < modes_.size(); ++h)
+    modes_[h].strain.account(branches(h), modes_[h].before, modes_[h].state,
+                             harmonics_[h].weight() * ring_.n_sectors(), e);
+}
+
+/// What the residual stores and takes.
+SolidWheel::Products SolidWheel::account_residual(WheelEnergy& e) const {
+  if (creep_) {
+    const CreepEnergy of = creep_->memory().energy(shares_);
+    e.by_residual = of.by_stiffness;
+    e.viscous += of.lost - of.by_stiffness;
+    e.internal += of.work - of.by_stiffness;
+    return {2.0 * of.at_end, 2.0 * of.at_start};
+  }
   double end = 0.0, across = 0.0, start = 0.0;
   for (const Near& near : near_) {
     const Memory& memory = memory_of(near.node);
@@ -100,16 +112,24 @@ void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
     across += dot(memory.filtered, memory.residual_before);
     start += dot(memory.filtered_before, memory.residual_before);
   }
+  e.by_residual = settings_.stiffness_damping / settings_.dt * (end - 2.0 * across + start);
+  return {end, start};
+}
+
+void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
+  const WheelMotion& m = motion.plane;
+  const double dt = settings_.dt;
+  WheelEnergy& e = report.energy;
+  account_modes(motion, report);
+  if (creep_) account_branches(e);
+  const double viscous_modes = e.viscous;
+  const auto [end, start] = account_residual(e);
   e.residual = 0.5 * end;
-  for (std::size_t h = 0; h < modes_.size(); ++h)
-    e.stored +=
-        0.5 * harmonics_[h].weight() * ring_.n_sectors() *
-        modes_[h].state.head(harmonics_[h].squares.size()).cwiseAbs2().dot(harmonics_[h].squares);
   e.stored += e.residual;
   const double by_table =
       new_table_ && (m.kept_spin || m.spin_rate != 0.0) ? 0.5 * start - residual_before_ : 0.0;
   if (!m.kept_spin) e.frame += by_table;
-  e.by_residual = settings_.stiffness_damping / dt * (end - 2.0 * across + start);
+  e.internal += by_table;
   for (std::size_t i = 0; i < solved_.size(); ++i) {
     const Near& near = near_[solved_[i]];
     const ConeContact& c = cones_[i];
@@ -128,6 +148,7 @@ void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
           (m.angle_next - m.angle) * report.torque + report.turning_work;
   report.lateral_work = report.end.force.z * (motion.lateral_next - motion.lateral);
   e.scheme = work_on_modes() + 0.5 * (end - start) + e.by_residual + e.friction + e.arrival + e.rim;
+  e.scheme += e.viscous - viscous_modes;
   if (m.kept_spin) e.scheme += by_table;
 }
 

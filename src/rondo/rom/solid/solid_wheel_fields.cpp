@@ -26,10 +26,12 @@ void SolidWheel::begin(const SolidMotion& m) {
   for (Memory& memory : memory_) memory = {};
   seen_.clear();
   last_ = {};
+  if (creep_) creep_->clear();
   use_spin(still);
   for (Modes& s : modes_) {
     s.state.setZero();
     s.force.setZero();
+    s.strain.end.setZero();
   }
 }
 
@@ -93,9 +95,7 @@ void SolidWheel::press_at_start(const SolidMotion& m, std::span<const Vec3> u) {
       by.segment<3>(row) << moved.x, moved.y, moved.z;
       for (std::size_t j = 0; j < nodes.size(); ++j) {
         const Near& from = near_[nodes[j]];
-        g.block<3, 3>(row, static_cast<Index>(3 * j)) =
-            beyond(sector(to.node) - sector(from.node))
-                .block<3, 3>(Index{3} * local(to.node), Index{3} * local(from.node));
+        g.block<3, 3>(row, static_cast<Index>(3 * j)) = held(to.node, from.node);
       }
     }
     forces = g.partialPivLu().solve(by);
@@ -112,10 +112,14 @@ void SolidWheel::press_at_start(const SolidMotion& m, std::span<const Vec3> u) {
     nodes = std::move(pressed);
   }
   for (Modes& s : modes_) s.ground.setZero();
+  if (creep_) creep_->clear_forces();
   for (const std::size_t i : nodes) {
     const Near& near = near_[i];
     push_modes(near);
-    memory_of(near.node).filtered = near.force;
+    if (creep_)
+      creep_->add_force(sector(near.node), Index{3} * local(near.node), near.force);
+    else
+      memory_of(near.node).filtered = near.force;
     const Vec3 force = fixed(near, near.force, m);
     last_.force += force;
     last_.moment += cross(fixed(near, near.place, m), force);
@@ -123,6 +127,10 @@ void SolidWheel::press_at_start(const SolidMotion& m, std::span<const Vec3> u) {
   for (std::size_t h = 0; h < modes_.size(); ++h)
     modes_[h].force.noalias() = harmonics_[h].contact.adjoint() * modes_[h].ground;
   for (const Near& near : near_) seen_.push_back(near.node);
+  if (creep_) {
+    creep_->start();
+    creep_->use(shares_);
+  }
   renew_residuals();
 }
 
@@ -149,13 +157,10 @@ void SolidWheel::project(double angle, std::span<const Vec3> field, bool velocit
   }
 }
 
-/// Writes a field of all free nodes, in the co-rotating frame.
-/// @param constant (rows) part that is the same in all sectors
+/// Amplitudes of the forces on the nodes that are remembered.
 /// @param filtered force on a node that the residual answers to
-template <class Coefficients, class Filtered>
-void SolidWheel::write_field(double angle, const Eigen::VectorXd& constant,
-                             Coefficients&& coefficients, Filtered&& filtered,
-                             std::span<Vec3> field) const {
+template <class Filtered>
+HarmonicCreep::Lagging SolidWheel::amplitudes_of(Filtered&& filtered) const {
   const int n = ring_.n_sectors();
   const Index half = n / 2 + 1;
   Matrix forces = Matrix::Zero(ring_.n_contact(), half);
@@ -169,9 +174,21 @@ void SolidWheel::write_field(double angle, const Eigen::VectorXd& constant,
           back * Eigen::Vector3d(force.x, force.y, force.z);
     }
   }
+  return {forces, Matrix::Zero(ring_.n_contact(), half)};
+}
+
+/// Writes a field of all free nodes, in the co-rotating frame.
+/// @param constant (rows) part that is the same in all sectors
+/// @param forces that the residual answers to
+template <class Coefficients>
+void SolidWheel::write_field(double angle, const Eigen::VectorXd& constant,
+                             Coefficients&& coefficients, const HarmonicCreep::Lagging& forces,
+                             std::span<Vec3> field) const {
+  const int n = ring_.n_sectors();
+  const Index half = n / 2 + 1;
   if (!field_ || field_->spin() != spin_)
-    field_ = std::make_unique<SolidFields>(ring_, harmonics_, spin_);
-  Matrix amplitude = (*field_)(forces);
+    field_ = std::make_unique<SolidFields>(ring_, harmonics_, spin_, model_.creep);
+  Matrix amplitude = (*field_)(forces.at_once, forces.later);
   const Complex frame = rotation(angle);
   Complex wave{1.0, 0.0};
   int reached = 0;
@@ -197,11 +214,14 @@ void SolidWheel::contact_displacement(double angle, std::span<Vec3> u) const {
   const Complex frame = rotation(angle);
   for (int j = 0; j < ring_.n_sectors(); ++j) {
     const Complex turn = ring_.stiffness.turn[at(j)];
+    if (creep_) creep_->write(creep_->now(), j, in_sector_);
     for (int c = 0; c < n_contact_; ++c) {
       const int row = ring_.contact[at(c)], node = j * n_contact_ + c;
       const Vec3 spun{centrifugal_[3 * row], centrifugal_[3 * row + 1], centrifugal_[3 * row + 2]};
+      const double* crept = &in_sector_[at(3 * c)];
+      const Vec3 residual = creep_ ? Vec3(crept[0], crept[1], crept[2]) : memory_of(node).residual;
       u[ring_.stiffness.node(at(row), at(j))] =
-          turn * (spun + modal(node, frame * turn, &Modes::contact) + memory_of(node).residual);
+          turn * (spun + modal(node, frame * turn, &Modes::contact) + residual);
     }
   }
 }
@@ -210,20 +230,30 @@ void SolidWheel::displacement(double angle, std::span<Vec3> u) const {
   write_field(
       angle, centrifugal_,
       [&](std::size_t h) { return Vector(modes_[h].state.head(harmonics_[h].squares.size())); },
-      [](const Memory& memory) { return memory.filtered; }, u);
+      creep_ ? creep_->lagging()
+             : amplitudes_of([](const Memory& memory) { return memory.filtered; }),
+      u);
 }
 
 void SolidWheel::velocity(double angle, std::span<Vec3> v) const {
+  const double dt = settings_.dt;
+  HarmonicCreep::Lagging rate;
+  if (creep_) {
+    const HarmonicCreep::Lagging before = creep_->lagging_before();
+    rate = creep_->lagging();
+    rate.at_once = (rate.at_once - before.at_once) / dt;
+    rate.later = (rate.later - before.later) / dt;
+  } else {
+    rate = amplitudes_of(
+        [&](const Memory& memory) { return (memory.filtered - memory.filtered_before) / dt; });
+  }
   write_field(
       angle, Eigen::VectorXd::Zero(ring_.n_rows()),
       [&](std::size_t h) {
         const Index r = harmonics_[h].squares.size();
         return Vector(0.5 * (modes_[h].before.tail(r) + modes_[h].state.tail(r)));
       },
-      [&](const Memory& memory) {
-        return (memory.filtered - memory.filtered_before) / settings_.dt;
-      },
-      v);
+      rate, v);
 }
 
 }  // namespace rondo::rom

@@ -265,6 +265,7 @@ void SolidWheel::turn_modes(double angle) {
     const Complex back = rotation(-harmonics_[h].k * angle);
     modes_[h].state *= Complexes(back.re, back.im);
     modes_[h].force *= Complexes(back.re, back.im);
+    modes_[h].strain.end *= Complexes(back.re, back.im);
   }
 }
 

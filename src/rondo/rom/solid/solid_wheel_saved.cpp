@@ -6,6 +6,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/rom/solid/solid_wheel.hpp"
+#include "rondo/rom/wheel/saved_numbers.hpp"
 
 namespace rondo::rom {
 namespace {
@@ -14,44 +15,20 @@ using Eigen::Index;
 
 constexpr std::size_t own_numbers = 8;  ///< spin, first sector, forces at the end
 
-void put(const Eigen::VectorXcd& from, std::vector<double>& to) {
-  for (const std::complex<double>& x : from) to.insert(to.end(), {x.real(), x.imag()});
+std::size_t creep_numbers(const SolidRing& ring, const WheelModel& model) noexcept {
+  if (model.creep.empty()) return 0;
+  return HarmonicCreep::n_saved(model.creep.size(), model.residuals.size(), at(ring.n_contact()),
+                                at(ring.n_sectors()));
 }
-void put(Vec3 x, std::vector<double>& to) {
-  to.insert(to.end(), {x.x, x.y, x.z});
-}
-
-/// Reads numbers one after the other.
-class Numbers {
- public:
-  explicit Numbers(std::span<const double> numbers) : left_(numbers) {}
-  double next() {
-    RONDO_DEMAND(!left_.empty());
-    const double x = left_.front();
-    left_ = left_.subspan(1);
-    return x;
-  }
-  Vec3 vec() {
-    const double x = next(), y = next();
-    return {x, y, next()};
-  }
-  void fill(Eigen::VectorXcd& to) {
-    for (std::complex<double>& x : to) {
-      const double re = next();
-      x = {re, next()};
-    }
-  }
-
- private:
-  std::span<const double> left_;
-};
 
 }  // namespace
 
 std::size_t SolidWheel::n_numbers(const SolidRing& ring, const WheelModel& model) noexcept {
   Index n = 0;
-  for (const RingHarmonic& h : model.harmonics) n += 6 * h.squares.size();
-  return own_numbers + at(n) + numbers_of_node * ring.contact.size() * at(ring.n_sectors());
+  for (const RingHarmonic& h : model.harmonics)
+    n += static_cast<Index>(6 + 2 * model.branches.size()) * h.squares.size();
+  return own_numbers + at(n) + creep_numbers(ring, model) +
+         numbers_of_node * ring.contact.size() * at(ring.n_sectors());
 }
 
 /// Modes take any finite numbers; nodes have a count among theirs, which is checked.
@@ -76,7 +53,9 @@ std::vector<double> SolidWheel::save() const {
   for (const Modes& s : modes_) {
     put(s.state, out);
     put(s.force, out);
+    for (Index b = 0; b < s.strain.end.cols(); ++b) put(s.strain.end.col(b), out);
   }
+  if (creep_) creep_->memory().save(out);
   for (const Memory& m : memory_) {
     for (const Vec3 x : {m.force, m.filtered, m.residual, m.place[0], m.place[1], m.place[2]})
       put(x, out);
@@ -87,7 +66,7 @@ std::vector<double> SolidWheel::save() const {
 
 void SolidWheel::restore(std::span<const double> numbers) {
   RONDO_DEMAND(is_saved(ring_, model_, numbers), numbers.size());
-  Numbers from(numbers);
+  SavedNumbers from(numbers);
   const double spin = from.next();
   first_ = static_cast<int>(from.next());
   if (!has_matrices_ || spin_rate_ != 0.0 || spin_ != spin) {
@@ -95,17 +74,22 @@ void SolidWheel::restore(std::span<const double> numbers) {
     set_residual(spin_);
     has_matrices_ = false;
   }
-  last_.force = from.vec();
-  last_.moment = from.vec();
+  last_.force = from.vec3();
+  last_.moment = from.vec3();
   for (Modes& s : modes_) {
     from.fill(s.state);
     from.fill(s.force);
+    for (Index b = 0; b < s.strain.end.cols(); ++b) from.fill(s.strain.end.col(b));
+  }
+  if (creep_) {
+    creep_->restore(from.take(creep_numbers(ring_, model_)));
+    creep_->use(shares_);
   }
   seen_.clear();
   for (Memory& m : memory_) {
     m = {};
     for (Vec3* x : {&m.force, &m.filtered, &m.residual, &m.place[0], &m.place[1], &m.place[2]})
-      *x = from.vec();
+      *x = from.vec3();
     for (double* x : {&m.gap[0], &m.gap[1], &m.slip}) *x = from.next();
     m.known = static_cast<int>(from.next());
     m.filtered_before = m.filtered;

@@ -3,6 +3,7 @@
 /// nodes of some sectors, one after the other, by forces on them.
 #pragma once
 #include <Eigen/Core>
+#include <vector>
 
 namespace rondo::rom {
 
@@ -11,7 +12,7 @@ namespace rondo::rom {
 /// long column or row. The compliance of a smaller window is the leading part.
 class WindowCompliance {
  public:
-  /// Makes room. What was there is lost.
+  /// Makes room, and allocates only for more than there was ever before. What was there is lost.
   /// @param size of a block @param sectors of the window
   void resize(Eigen::Index size, Eigen::Index sectors);
   /// @param lag -sectors < lag < sectors @param block (size, size) [m/N]
@@ -21,17 +22,20 @@ class WindowCompliance {
   [[nodiscard]] Eigen::Index size() const noexcept { return size_ * sectors_; }
   /// (size()) A column.
   [[nodiscard]] const double* column(Eigen::Index j) const noexcept {
-    return columns_.col(j % size_).data() + (sectors_ - 1 - j / size_) * size_;
+    return columns_.data() + j % size_ * rows() + (sectors_ - 1 - j / size_) * size_;
   }
   /// (size()) A row in single precision.
   [[nodiscard]] const float* rounded(Eigen::Index i) const noexcept {
-    return rounded_.col(i % size_).data() + (sectors_ - 1 - i / size_) * size_;
+    return rounded_.data() + i % size_ * rows() + (sectors_ - 1 - i / size_) * size_;
   }
 
  private:
+  /// Of both matrices.
+  [[nodiscard]] Eigen::Index rows() const noexcept { return (2 * sectors_ - 1) * size_; }
+
   Eigen::Index size_ = 1, sectors_ = 0;
-  Eigen::MatrixXd columns_;  ///< ((2 sectors - 1) size, size) blocks, lags ascending
-  Eigen::MatrixXf rounded_;  ///< the same shape: transposed blocks, lags descending
+  std::vector<double> columns_;  ///< (rows(), size) blocks, lags ascending
+  std::vector<float> rounded_;   ///< the same shape: transposed blocks, lags descending
 };
 
 }  // namespace rondo::rom
