@@ -40,7 +40,8 @@ SCRIPTS = {"cli": "test_run.py", "lengths": "test_contact_lengths.py", "disk": "
            "push": "test_push_words.py"}
 
 PACKAGE = {"rigfit": "test_rig_fit.py", "rigreport": "test_rig_report.py", "rigagainst": "test_rig_against.py",
-           "rigfigures": "test_rig_figures.py", "rigcommand": "test_rig_command.py"}  # in tests/python
+           "rigfigures": "test_rig_figures.py", "rigcommand": "test_rig_command.py",
+           "rigplane": "test_rig_plane.py"}  # in tests/python
 
 # @file in src/rondo, or from the root where it begins with python/, then of each mutation in it: name | old text => new text | tests.
 # \n is a new line; a line that begins with spaces continues the one above. The tests are

@@ -62,7 +62,7 @@ def _parser() -> argparse.ArgumentParser:
                        help="Directory of another study.toml; default studies/paper")
 
     rig = add(
-        "rig", "Tests a wheel in three dimensions on a tyre test rig: tables, tyre.tir, a report",
+        "rig", "Tests a wheel on a tyre test rig: tables, tyre.tir, a report",
         epilog="The same command goes on with a rig that was interrupted. Exit code 3: some points failed, each a row "
                "with its reason. docs/rig.md.")
     rig.add_argument("case", type=pathlib.Path, metavar="TYRE.toml", help="Case file of the wheel")
@@ -72,9 +72,9 @@ def _parser() -> argparse.ArgumentParser:
                      help="Loads, pressures, slips, speeds of the tests; default: those that fit the case")
     rig.add_argument("--write-defaults", action="store_true",
                      help="Prints a RIG.toml with all values, those of --rig and the defaults, and runs no test")
-    rig.add_argument("--tests", metavar="NAME,NAME", help="Tests that are done; default all: vertical, footprint, "
-                     "longitudinal, lateral, combined, rolling-resistance, relaxation, cleat, modes, road")
-    rig.add_argument("--quick", action="store_true", help="Half the sectors, a quarter of the points")
+    rig.add_argument("--tests", metavar="NAME,NAME", help="Tests that are done; default all that the wheel can do: vertical, "
+                     "footprint, longitudinal, lateral, combined, rolling-resistance, relaxation, cleat, modes, road")
+    rig.add_argument("--quick", action="store_true", help="A quarter of the points, and half the sectors of wheels in three dimensions")
     rig.add_argument("--dry-run", action="store_true", help="Prints tests, points, time and disk, from one state")
     rig.add_argument("--against", type=pathlib.Path, metavar="FILE",
                      help="Measurements, .tdx or .csv with channels of TYDEX, in figures and report")
@@ -261,9 +261,8 @@ def _paper(options: argparse.Namespace) -> int:
 
 def _rig(options: argparse.Namespace) -> int:
     from rondo.rig.command import Request, defaults_text, plan, run_rig
-    from rondo.rig.tests_table import TESTS
 
-    tests = tuple(name.strip() for name in options.tests.split(",")) if options.tests else tuple(TESTS)
+    tests = tuple(name.strip() for name in options.tests.split(",")) if options.tests else ()
     request = Request(options.case, options.output or pathlib.Path(f"{options.case.stem}-rig"), options.rig, tests,
                       options.quick, options.jobs or 0, options.overwrite, options.quiet, options.against, options.fmu)
     if options.write_defaults or options.dry_run:

@@ -229,7 +229,6 @@ def test_mistakes_in_a_rig_file(tmp_path, text, words):
 
 @pytest.mark.parametrize("old, new, words", [
     ("load = 4000.0\n", "", "give load = 4000.0 in a rig file"),
-    ("width = 0.10\n", "", "the rig tests wheels in three dimensions"),
     ("angular_velocity = 40.0\n", "", "give speed = 13.7"), ("angular_velocity = 40.0", "angular_velocity = 1e-3", "m/s and more"),
     ("friction = 0.8\n", "", "give friction = 0.9"), ("circumferential = 60\n", "", "disk.mesh.circumferential"),
     ("[material]", "[disk.tread]\n[material]", "disk.tread"),

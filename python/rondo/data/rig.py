@@ -28,7 +28,8 @@ class RigTest:
 
 @dataclass(frozen=True)
 class Rig:
-    """rig.tests["lateral"].table["Fy"] is a column in SI, in the axes ISO-W."""
+    """rig.tests["lateral"].table["Fy"] is a column in SI, in the axes ISO-W. Of a plane wheel without a width it is
+    "Fx_per_m", in N/m."""
 
     directory: pathlib.Path
     info: dict[str, Any]           # rig.json
@@ -41,6 +42,22 @@ class Rig:
     @property
     def settings(self) -> dict[str, Any]:
         return dict(self.info.get("settings", {}))
+
+    @property
+    def plane(self) -> str:
+        """"strain" or "stress" of a wheel in the plane; "" of a wheel in three dimensions."""
+        return str(self.info.get("wheel", {}).get("plane", ""))
+
+    @property
+    def width(self) -> float | None:
+        """m, by which the forces of a plane wheel are multiplied; None: they are per metre of width, or the wheel is one
+        in three dimensions."""
+        return self.info.get("wheel", {}).get("width")
+
+    @property
+    def per_metre(self) -> bool:
+        """Forces and moments are per metre of width: columns of them end in _per_m."""
+        return bool(self.plane) and self.width is None
 
     @property
     def figures(self) -> dict[str, dict[str, Any]]:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from ..data.errors import FileError, InputError
 from .against_points import Axis, Way, interpolated
+from .plane import WITHOUT_WIDTH
 from .points import points
 from .against_reading import CHANNEL_OF, UNITS, Measured, read_measured, told
 
@@ -92,6 +93,8 @@ def compare(rig: Rig, file: str | os.PathLike[str]) -> Comparison:
     of the state that the file does not have agree with any.
     @raise InputError: no channel in common, or no state within the points of the rig; FileError: the file cannot be
     read."""
+    if rig.per_metre:
+        raise InputError(f"{file}: measurements are in newtons, and {WITHOUT_WIDTH}")
     measured = read_measured(file)
     shown: dict[str, dict[str, Array]] = {}
     differences: list[Difference] = []

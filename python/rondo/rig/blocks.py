@@ -12,7 +12,7 @@ from typing import Any
 
 from ..data.errors import FileError
 from .keys import TOP
-from .settings import Settings
+from .settings import Settings, is_per_metre
 from .toml_text import toml_text
 from .tyre import Tyre
 
@@ -52,8 +52,9 @@ class Block:
         """Its files: name, content."""
         texts = {"case.toml": toml_text(self.case)}
         if self.kind == SWEEP:
-            study = {"schema": 1, "title": self.name, "base": "case.toml",
-                     "vary": [{"keys": list(self.keys), "values": [list(row) for row in self.values]}]}
+            vary = {"keys": list(self.keys), "values": [list(row) for row in self.values]} if len(self.keys) > 1 else \
+                {"key": self.keys[0], "values": [row[0] for row in self.values]}
+            study = {"schema": 1, "title": self.name, "base": "case.toml", "vary": [vary]}
             texts["study.toml"] = toml_text(study)
         return texts
 
@@ -104,6 +105,7 @@ class Bench:
     settings: Settings
     mesh: str = ""
     radius: float = 0.0
+    stable_step: float = 0.0  # s, of runs of a plane wheel in time; 0: not known, or not needed
 
     @property
     def top(self) -> dict[str, Any]:
@@ -114,6 +116,16 @@ class Bench:
         """Pa, nominal; None of a wheel without air."""
         found = self.top.get("pressure")
         return None if found is None else float(found)
+
+    @property
+    def per_metre(self) -> bool:
+        """Forces are per metre of width."""
+        return is_per_metre(self.tyre.wheels, self.top)
+
+    @property
+    def width(self) -> float:
+        """m, by which forces of the program are multiplied."""
+        return float(self.top.get("width", 1.0))
 
     def spin(self, speed: float | None = None) -> float:
         """rad/s, at which the radius without load has this speed [m/s]; None: the nominal one."""
@@ -127,7 +139,7 @@ def tyre_case(bench: Bench, title: str, pressure: float | None) -> dict[str, Any
     case |= {name: copy.deepcopy(found[name]) for name in _KEPT if name in found}
     if "section" in case:
         case["section"] |= {"file": f"../{bench.mesh}", "sectors": bench.top["sectors"]}
-    else:
+    elif not bench.tyre.has_tread:
         case["disk"]["mesh"]["circumferential"] = bench.top["sectors"]
     if pressure is not None:
         case["inflation"]["pressure"] = pressure
@@ -141,14 +153,16 @@ def ground_of(bench: Bench, profile: Any = "flat") -> dict[str, Any]:
     return {"profile": profile, "friction": copy.deepcopy(found) if friction is None else friction}
 
 
-def steady_case(bench: Bench, title: str, pressure: float | None, spin: float, **analysis: Any) -> dict[str, Any]:
-    """A state of steady rolling; a sweep varies the rest."""
+def steady_case(bench: Bench, title: str, pressure: float | None, spin: float, load: float | None = None,
+                **analysis: Any) -> dict[str, Any]:
+    """A state of steady rolling; a sweep varies the rest. `load`: None: the nominal one."""
     own = bench.tyre.case.get("analysis", {})
     case = tyre_case(bench, title, pressure)
     case["motion"] = {"angular_velocity": spin}
     case["ground"] = ground_of(bench)
     case["analysis"] = {
-        "kind": "steady-rolling", "load": bench.top["load"], "samples_per_sector": bench.top["samples_per_sector"],
+        "kind": "steady-rolling", "load": (bench.top["load"] if load is None else load) / bench.width,
+        "samples_per_sector": bench.top["samples_per_sector"],
         "estimate_slip_error": False, "accept_scheme_power": True,
         **{name: own[name] for name in ("inertia", "slip", "massless_contact") if name in own}, **analysis}
     case["output"] = {"stress": False}
@@ -163,6 +177,8 @@ def steady_block(bench: Bench, test: str, name: str, points: Sequence[Point], sp
     first = points[0]
     analysis = {} if speeds else {"torque": 0.0}
     case = steady_case(bench, name, first.pressure, bench.spin(first.speed), **analysis) | tables
-    keys = ("analysis.load", "motion.slip_angle", "motion.camber", *(("motion.speed",) if speeds else ()))
-    values = tuple((p.load, 0.0 - p.slip_angle, 0.0 - p.camber, *speeds[k:k + 1]) for k, p in enumerate(points))
+    angles = () if bench.tyre.is_plane else ("motion.slip_angle", "motion.camber")
+    keys = ("analysis.load", *angles, *(("motion.speed",) if speeds else ()))
+    values = tuple((p.load / bench.width, *((0.0 - p.slip_angle, 0.0 - p.camber) if angles else ()), *speeds[k:k + 1])
+                   for k, p in enumerate(points))
     return Block(test, name, SWEEP, case, tuple(points), keys, values)

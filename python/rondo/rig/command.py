@@ -6,7 +6,7 @@ import pathlib
 import shutil
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -23,14 +23,16 @@ from .blocks import MADE_OF, RESULTS, SWEEP, Bench, Block
 from .defaults import nominal, with_defaults
 from .findings import find
 from .keys import TOP
+from .plane import LEFT_OUT, NOTES, WITHOUT_WIDTH, fmu_note
 from .record import FORMAT, replace_text, write_channels, write_json, write_table
 from .rows import DONE, FAILED, free_radius, rows_of_block
-from .settings import Settings, read_settings, settings_text
+from .settings import Settings, is_per_metre, read_settings, settings_text
 from .states import Row, States, states_of
 from .steady_tests import at_speeds, reference
 from .tests_table import TESTS
-from .time_tests import fmu
+from .time_tests import fmu, stable_step
 from .tyre import Tyre, read_tyre
+from .units import units_of
 
 GUESS = 0.3      # m: the radius by which a speed of a rig file is a spin, until the reference tells the radius
 FIRST = "vertical"  # the test that others begin with
@@ -44,7 +46,7 @@ class Request:
     case: pathlib.Path
     directory: pathlib.Path
     rig: pathlib.Path | None = None
-    tests: tuple[str, ...] = tuple(TESTS)
+    tests: tuple[str, ...] = ()  # none: all that the wheel can do
     quick: bool = False
     jobs: int = 0            # at once; 0: as many as there are cores
     overwrite: bool = False  # do again what is there
@@ -66,7 +68,7 @@ def defaults_text(request: Request) -> str:
     with tempfile.TemporaryDirectory() as folder:
         rig = Rig(replace(request, directory=pathlib.Path(folder)))
         rig.begin(Stop())
-        return settings_text(rig.bench.settings, rig.bench.tyre.title)
+        return settings_text(rig.bench.settings, rig.bench.tyre.title, rig.bench.tyre.wheels)
 
 
 def run_rig(request: Request) -> int:
@@ -74,6 +76,7 @@ def run_rig(request: Request) -> int:
     where it was. Returns the exit code."""
     if request.against is not None:
         read_measured(request.against)  # what is wrong with it is told now, not at the end
+        demand_newtons(request)
     try:
         request.directory.mkdir(parents=True, exist_ok=True)
     except OSError as reason:
@@ -87,6 +90,13 @@ def run_rig(request: Request) -> int:
         return rig.end(stop)
 
 
+def demand_newtons(request: Request) -> None:
+    """@raise InputError: measurements beside forces per metre of width."""
+    tyre = read_tyre(request.case)
+    if is_per_metre(tyre.wheels, read_settings(request.rig, tyre.wheels)[TOP]):
+        raise InputError(f"--against: {request.against}: measurements are in newtons, and {WITHOUT_WIDTH}")
+
+
 class Rig:
     """The rig as it goes on, and what is written of it."""
 
@@ -95,7 +105,13 @@ class Rig:
             raise InputError(f"--tests: {', '.join(unknown)}: no such test (allowed: {', '.join(TESTS)})")
         self.request, self.program = request, find_program()
         self.tyre: Tyre = read_tyre(request.case)
-        self.given: Settings = read_settings(request.rig)
+        self.given: Settings = read_settings(request.rig, self.tyre.wheels)
+        self.left_out: Mapping[str, str] = LEFT_OUT if self.tyre.is_plane else {}  # tests that the wheel cannot do, and why
+        for name in request.tests:
+            if name in self.left_out:
+                raise InputError(f"--tests: {name}: {self.left_out[name]} (allowed: "
+                                 f"{', '.join(one for one in TESTS if one not in self.left_out)})")
+        self.fmu: dict[str, Any] = {}    # what rig.json says of tyre.fmu
         self.known: dict[str, Any] = {}  # tests of the same rig that were done before
         self.blocks: dict[str, list[Block]] = {}
         self.rows: dict[str, list[Row]] = {}
@@ -140,7 +156,7 @@ class Rig:
             known = {}
         changed = [name for name, value in self._sources().items() if known.get("sources", {}).get(name) != value]
         if not changed and known.get("format") == FORMAT:
-            self.known = known.get("tests", {})
+            self.known, self.fmu = known.get("tests", {}), known.get("fmu", {})
             return
         if not self.request.overwrite:
             raise InputError(f"{self.request.directory}: holds a rig of another {' and another '.join(changed) or 'format'}; "
@@ -187,6 +203,17 @@ class Rig:
         self.disk = int(sum(path.stat().st_size for path in (self.runs / block.name / RESULTS).iterdir()))
         settings = with_defaults(self.tyre, self.given, self.request.quick, radius)
         self.bench = Bench(self.tyre, settings, self.bench.mesh, radius)
+        if self.tyre.is_plane and "relaxation" in self._with_first():
+            self._find_stable_step(stop)
+
+    def _find_stable_step(self, stop: Stop) -> None:
+        block = stable_step(self.bench)
+        self._run([block], stop, quiet=True)
+        if block.name in self.failures:
+            raise Error(f"the wheel does not turn in time: {self.failures[block.name]}")
+        if not stop.asked:
+            info = read_json(self.runs / block.name / RESULTS / "run.json")
+            self.bench = replace(self.bench, stable_step=float(info["step"]))
 
     def do_tests(self, stop: Stop) -> None:
         wanted = self._with_first()
@@ -195,6 +222,8 @@ class Rig:
             for name in tests:
                 self.blocks[name], why = self._build(name)
                 self.tests[name] = {"status": "left out", "reason": why} if why else {"status": "running"}
+                if self.tyre.is_plane and name in NOTES:
+                    self.tests[name]["note"] = NOTES[name]
                 blocks += self.blocks[name]
             others = at_speeds(self.bench, wanted) if FIRST in tests else []
             if blocks and not stop.asked:
@@ -216,7 +245,7 @@ class Rig:
 
     def _with_first(self) -> list[str]:
         """The tests asked for, and that with which they begin."""
-        asked = [name for name in TESTS if name in self.request.tests]
+        asked = [name for name in TESTS if name in (self.request.tests or TESTS)]
         needs = self.request.fmu or any(map(self._begins_with_states, asked))
         return [FIRST, *asked] if needs and FIRST not in asked else asked
 
@@ -226,6 +255,8 @@ class Rig:
 
     def _build(self, name: str) -> tuple[list[Block], str]:
         """Its blocks, or why there are none."""
+        if name in self.left_out:
+            return [], self.left_out[name]
         try:
             return TESTS[name].blocks(self.bench, self.states or States({})), ""
         except Error as reason:
@@ -277,13 +308,21 @@ class Rig:
         return (SETUP + each * len(block.points)) * (self.point_s or 1.0)
 
     def _make_fmu(self, stop: Stop) -> None:
-        """DIR/tyre.fmu."""
-        block = fmu(self.bench, self.states or States({}))
-        self._run([block], stop, self.request.quiet)
-        made = self.runs / block.name / f"{RESULTS}.fmu"
-        if block.name in self.failures:
-            raise Error(f"tyre.fmu was not made: {self.failures[block.name]}")
-        shutil.copyfile(made, self.request.directory / "tyre.fmu")
+        """DIR/tyre.fmu, or why there is none."""
+        file = self.request.directory / "tyre.fmu"
+        try:
+            block = fmu(self.bench, self.states or States({}))
+            self._run([block], stop, self.request.quiet)
+            if stop.asked:
+                return
+            if block.name in self.failures:
+                raise Error(self.failures[block.name])
+            shutil.copyfile(self.runs / block.name / f"{RESULTS}.fmu", file)
+            self.fmu = {"status": DONE} | ({"note": fmu_note(self.bench.top.get("width"))} if self.tyre.is_plane else {})
+        except (Error, OSError) as reason:
+            file.unlink(missing_ok=True)
+            self.fmu = {"status": FAILED, "reason": "; ".join(str(reason).splitlines())}
+        self.write()
 
     # What is written
 
@@ -302,8 +341,8 @@ class Rig:
                      "points": sum(len(block.points) for block in self.blocks[name]), "failed": failed}
             if rows and failed == len(rows):
                 told["status"] = "failed"
-            told["csv"] = write_table(self.request.directory, name, rows)
-            told["tdx"] = write_channels(self.request.directory, name, self.tyre.title, rows)
+            told["csv"] = write_table(self.request.directory, name, rows, self.bench)
+            told["tdx"] = write_channels(self.request.directory, name, rows, self.bench)
             told["figures"] = find(self.bench, name, rows)
         self.write()
 
@@ -315,8 +354,16 @@ class Rig:
         write_json(self.request.directory / "rig.json", {
             "format": FORMAT, "schema": 1, "title": self.tyre.title, "case": self.tyre.path.name,
             "version": self.program.version, "build_id": self.program.build_id, "quick": self.request.quick,
-            "radius": self.bench.radius, "settings": {**settings[TOP], **{k: v for k, v in settings.items() if k != TOP}},
+            "radius": self.bench.radius, **self._wheel(found), **({"fmu": self.fmu} if self.fmu else {}), "settings": {**settings[TOP], **{k: v for k, v in settings.items() if k != TOP}},
             "tests": {name: found[name] for name in TESTS if name in found}, "sources": self._sources()})
+
+    def _wheel(self, tests: Mapping[str, Any]) -> dict[str, Any]:
+        """What the forces of the wheel are, and the units of all columns and figures of merit."""
+        plane, per_metre = self.tyre.is_plane, self.bench.per_metre
+        columns = [name for test in tests if test not in self.left_out for name in TESTS[test].columns_of(plane)]
+        figures = [name for told in tests.values() for name in told.get("figures", {})]
+        wheel = {"plane": self.tyre.plane_kind, "width": self.bench.top.get("width")} if plane else {}
+        return {"wheel": wheel, "units": units_of(columns, figures, per_metre)}
 
     def plan_text(self) -> str:
         """Tests, points, time and disk."""
@@ -326,6 +373,9 @@ class Rig:
         states = States({0.0: curve, np.inf: curve}, dict.fromkeys(speeds, (radius, radius)))
         lines, total, points, parts = [], 0.0, 0, 0.0
         for name in self._with_first():
+            if name in self.left_out:
+                lines.append(f"{name:20}left out: {self.left_out[name]}")
+                continue
             blocks = TESTS[name].blocks(self.bench, states)
             cost, count = sum(map(self._cost, blocks)), sum(len(block.points) for block in blocks)
             lines.append(f"{name:20}{count:5} points  about {readable_time(cost)} of one core")
@@ -340,14 +390,19 @@ class Rig:
             _say(False, "warning: interrupted; the same command goes on")
             return INTERRUPTED
         from .pages import pages_are_there, write_pages
+        if self.request.fmu:
+            self._make_fmu(stop)
+            if stop.asked:
+                return self.end(stop)
         if not pages_are_there(self.request.directory, self.request.against):
             for path in write_pages(self.request.directory, self.request.against):
                 _say(self.request.quiet, f"info: {path}")
-        if self.request.fmu:
-            self._make_fmu(stop)
         failed = [f"{name}: {told.get('failed', 0)} of {told['points']} points failed" for name, told in self.tests.items()
                   if told.get("failed")]
-        failed += [f"{name}: left out: {told['reason']}" for name, told in self.tests.items() if told["status"] == "left out"]
+        failed += [f"{name}: left out: {told['reason']}" for name, told in self.tests.items()
+                   if told["status"] == "left out" and name not in self.left_out]
+        if self.request.fmu and self.fmu["status"] == FAILED:
+            failed.append(f"tyre.fmu: failed: {self.fmu['reason']}")
         for line in failed:
             _say(False, f"warning: {line}")
         return NUMERICAL if failed else 0

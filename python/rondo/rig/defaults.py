@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..data.errors import InputError
-from .keys import TABLES, TOP
+from .keys import TOP, tables_of
 from .settings import Settings, Values
 from .tyre import Tyre
 
@@ -15,10 +15,14 @@ def nominal(tyre: Tyre, given: Settings, quick: bool) -> Values:
     """The values at the top that need no run: load, pressure, friction, sectors, samples.
     @raise InputError: neither the case nor the rig file says a load or a speed."""
     top = given[TOP]
-    values: Values = {"schema": 1, "load": tyre.load, "pressure": tyre.pressure, "friction": tyre.friction,
-                      "sectors": _coarser(tyre.sectors) if quick else tyre.sectors,
-                      "samples_per_sector": min(2, tyre.samples), **top}
-    for key, unit, there in (("load", "4000.0", "no analysis.load and no rim.force_y"),
+    values: Values = {"schema": 1, "load": _load_of(tyre, top), "pressure": tyre.pressure, "friction": tyre.friction,
+                      "sectors": _coarser(tyre.sectors) if quick and not tyre.is_plane else tyre.sectors,
+                      "samples_per_sector": _samples_of(tyre, quick), **top}
+    if tyre.has_tread and values["sectors"] != tyre.sectors:
+        raise InputError(f"{tyre.path}: has a tread of {tyre.sectors} pitches, and the rig file has sectors = {values['sectors']} "
+                         "(allowed: leave sectors out; disk.tread.pitches of the case)")
+    for key, unit, there in (("load", "1.0e5 in N/m, or width and load in N," if tyre.is_plane else "4000.0",
+                              "no analysis.load and no rim.force_y"),
                              ("speed", "13.7", "no motion.angular_velocity above 0")):
         if key not in values or values[key] is None:
             if key == "speed" and tyre.spin is not None:
@@ -45,18 +49,29 @@ def with_defaults(tyre: Tyre, given: Settings, quick: bool, radius: float) -> Se
     top.setdefault("pressures", _times(pressure, (0.8, 1.0) if quick else (0.8, 1.0, 1.2)) if pressure else [])
     top.setdefault("cambers_deg", [0.0, 3.0] if quick else [-3.0, 0.0, 3.0])
     settings: Settings = {TOP: top}
-    for name, defaults in _of_tests(top, quick, radius).items():
-        settings[name] = defaults | given.get(name, {})
+    tables = tables_of(tyre.wheels)
+    for name, defaults in _of_tests(top, quick, radius, tyre.is_plane).items():
+        if name in tables:
+            settings[name] = defaults | given.get(name, {})
     for values in settings.values():  # tests compare with these
         for key, always in (("pressures", pressure), ("cambers_deg", 0.0)):
             if key in values and always is not None:
                 values[key] = _united([values[key], [always]])
-    for key in ("slip_angles_deg", "few_slip_angles_deg"):
+    for key in ("slip_angles_deg", "few_slip_angles_deg") if "lateral" in settings else ():
         settings["lateral"][key] = _united([settings["lateral"][key], [0.0]])
     for key in ("loads", "pressures"):  # other tests begin with its heights and radii
         settings["vertical"][key] = _united([one[key] for one in settings.values() if key in one] + [[load]] * (key == "loads"))
     return {table: {key.name: settings[table][key.name] for key in keys if settings[table].get(key.name) not in (None, [])}
-            for table, keys in TABLES.items()}
+            for table, keys in tables.items()}
+
+
+def _load_of(tyre: Tyre, top: Values) -> float | None:
+    """N of the case, in the unit of the rig file."""
+    return tyre.load * float(top.get("width", 1.0)) if tyre.load is not None else None
+
+
+def _samples_of(tyre: Tyre, quick: bool) -> int:
+    return min(tyre.samples, 4) if quick else tyre.samples
 
 
 def _coarser(sectors: int) -> int:
@@ -77,7 +92,7 @@ def _times(value: float, factors: tuple[float, ...]) -> list[float]:
     return [value if factor == 1.0 else _short(value * factor) for factor in factors]
 
 
-def _of_tests(top: Values, quick: bool, radius: float) -> Settings:
+def _of_tests(top: Values, quick: bool, radius: float, is_plane: bool) -> Settings:
     loads, pressures, load, speed = top["loads"], top["pressures"], top["load"], top["speed"]
     of_loads = {"loads": loads, "pressures": pressures}
     vertical = (0.25, 0.5, 1.0, 1.5) if quick else (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)
@@ -99,8 +114,9 @@ def _of_tests(top: Values, quick: bool, radius: float) -> Settings:
                      "slip_angles_deg": [-4.0, 2.0] if quick else [-5.0, -2.0, 2.0, 5.0],
                      "slip_ratios": [-0.06, 0.02] if quick else [-0.14, -0.07, -0.03, 0.03, 0.07]},
         "rolling-resistance": {**of_loads, "speeds": speeds},
-        "relaxation": {"loads": [load] if quick else loads, "slip_angle_step_deg": 0.1, "slip_ratio_step": 0.001,
-                       "distance": _short(6.0 * radius)},
+        "relaxation": {"loads": [load] if quick else loads, "slip_angle_step_deg": 0.1,
+                       "slip_ratio_step": 0.005 if is_plane else 0.001,  # steps in time need a larger one
+                       "distance": _short(6.0 * radius), "mass_damping": 100.0},
         "cleat": {"speeds": [speed] if quick else _times(speed, (0.5, 1.0, 2.0)), "height": 0.01, "length": 0.02,
                   "modes": 60 if quick else 200, "mass_damping": 25.0},
         "modes": {"count": 6 if quick else 20},

@@ -16,7 +16,9 @@ from ..data.errors import Error, InputError
 from ..data.tir import Tir, tir, write_tir as write_file
 from .fit_rows import CHANNELS_OF, FORCES, INPUTS, Rows, rows_of
 from .fit_structure import sizes_of, structure_of
-from .points import UNITS, Array, nominal
+from .plane import LEFT_OUT, NO_TIR, ONLY_PLANE, USE_MODE, sentence
+from .points import Array, nominal
+from .units import COLUMNS
 
 if TYPE_CHECKING:
     from ..data.rig import Rig
@@ -29,8 +31,7 @@ RANGES = {"slip_ratio": ("KPUMIN", "KPUMAX"), "slip_angle": ("ALPMIN", "ALPMAX")
           "load": ("FZMIN", "FZMAX"), "pressure": ("PRESMIN", "PRESMAX")}
 
 
-NO_POINTS = ("no points to fit a Magic Formula to (needed: the tests lateral or longitudinal): run the rig with --tests "
-             f"{','.join(CHANNELS_OF)}")
+NO_POINTS = "no points to fit a Magic Formula to (needed: the tests {needed}): run the rig with --tests {tests}"
 
 
 @dataclass(frozen=True)
@@ -67,15 +68,25 @@ def fit_rig(rig: Rig) -> Fitted:
     """Fits all that the points of the rig hold.
     @raise Error: there are no points of steady rolling."""
     rows = rows_of(rig)
-    if not has_forces(rows):
-        raise Error(f"{rig.directory}: {NO_POINTS}")
+    if (why := why_none(rig, rows)):
+        raise Error(f"{rig.directory}: {why}")
     known = _nominal(rig, rows)
-    start = tir({**known, **structure_of(rig, known)}, FITTYP)
+    plane = {"USE_MODE": USE_MODE, "WIDTH": float(rig.width or 0.0)} if rig.plane else {}
+    start = tir({**known, **plane, **structure_of(rig, known | plane)}, FITTYP)
     found, missing = _fit(start, rows)
     made = found.tir.with_values(_ranges(rows))
     left = {**missing, **found.left}
     residuals = residuals_of(made, rows)
     return Fitted(_commented(made, rig, residuals, left, found.at_bounds), residuals, left, found.at_bounds)
+
+
+def why_none(rig: Rig, rows: Rows) -> str:
+    """Why a rig can have no tyre.tir; "": it can."""
+    if rig.per_metre or has_forces(rows):
+        return NO_TIR if rig.per_metre else ""
+    tests = [name for name in CHANNELS_OF if not rig.plane or name not in LEFT_OUT]
+    return NO_POINTS.format(needed=" or ".join(name for name in tests if CHANNELS_OF[name] is FORCES and name != "combined"),
+                            tests=",".join(tests))
 
 
 def has_forces(rows: Rows) -> bool:
@@ -94,7 +105,7 @@ def residuals_of(made: Tir, rows: Rows) -> dict[str, Residual]:
         there = np.isfinite(values)
         apart = getattr(forces, name)[there] - values[there]
         size, rms = float(np.abs(values[there]).max()), float(np.sqrt(np.mean(apart ** 2)))
-        found[name] = Residual(UNITS[name], rms, float(np.abs(apart).max()), rms / size if size else np.inf,
+        found[name] = Residual(COLUMNS[name], rms, float(np.abs(apart).max()), rms / size if size else np.inf,
                                int(there.sum()))
     return found
 
@@ -150,6 +161,7 @@ def _commented(made: Tir, rig: Rig, residuals: Mapping[str, Residual], left: Map
     counts = ", ".join(f"{test} {int((rows.tests == test).sum())}" for test in dict.fromkeys(rows.tests.tolist()))
     lines = [f"{rig.title}: Magic Formula 6.1 by rondo, fitted to the points of a rig: {counts}",
              "Axes and signs: ISO 8855 (TYDEX W). SI units; angles in rad.",
+             *((sentence(rig.plane, rig.width), ONLY_PLANE) if rig.plane else ()),
              *(f"{name}: rms {one.rms:.4g} {one.unit}, {100 * one.of_largest:.3g} % of the largest of {one.rows} points; "
                f"largest difference {one.largest:.4g} {one.unit}" for name, one in residuals.items())]
     reasons: dict[str, list[str]] = {}

@@ -47,15 +47,18 @@ def vertical(deflection: Array, load: Array, pressure: Array, nominal: Mapping[s
 
 
 def patch(length: Array, width: Array, load: Array, known: Mapping[str, float]) -> dict[str, float]:
-    """Q_RA1, Q_RA2, Q_RB1, Q_RB2: half the length of the contact patch is R_0 (q_ra2 s + q_ra1 sqrt(s)), half its width
+    """Q_RA1, Q_RA2, Q_RB1, Q_RB2, the last two of wheels with a width of the contact: half the length of the contact patch is R_0 (q_ra2 s + q_ra1 sqrt(s)), half its width
     WIDTH (q_rb2 s + q_rb1 s^(1/3)), with s = F_z / (c_z R_0)."""
     if "VERTICAL_STIFFNESS" not in known or "WIDTH" not in known or len(load) < 2:
         return {}
     share = load / (known["VERTICAL_STIFFNESS"] * known["UNLOADED_RADIUS"])
     along = np.linalg.lstsq(np.stack([np.sqrt(share), share], axis=1), 0.5 * length / known["UNLOADED_RADIUS"],
                             rcond=None)[0]
+    lengths = {"Q_RA1": float(along[0]), "Q_RA2": float(along[1])}
+    if not np.isfinite(width).all():
+        return lengths
     across = np.linalg.lstsq(np.stack([np.cbrt(share), share], axis=1), 0.5 * width / known["WIDTH"], rcond=None)[0]
-    return {"Q_RA1": float(along[0]), "Q_RA2": float(along[1]), "Q_RB1": float(across[0]), "Q_RB2": float(across[1])}
+    return {**lengths, "Q_RB1": float(across[0]), "Q_RB2": float(across[1])}
 
 
 def sizes_of(rig: Rig) -> dict[str, float]:
@@ -73,7 +76,8 @@ def structure_of(rig: Rig, known: Mapping[str, float]) -> dict[str, float]:
     upright = chosen(upright, np.isfinite(upright["deflection"]) & ~(np.abs(upright["camber"]) > 0))
     found = vertical(upright["deflection"], upright["load"], upright["pressure"], known)
     known = {**known, **found}
-    nominal = chosen(upright, np.isclose(upright["pressure"], known.get("NOMPRES", np.nan), rtol=APART)
+    without_air = (upright["pressure"] == 0.0) & bool(rig.plane)
+    nominal = chosen(upright, (np.isclose(upright["pressure"], known.get("NOMPRES", np.nan), rtol=APART) | without_air)
                      & np.isfinite(upright["contact_length"]))
     found |= patch(nominal["contact_length"], nominal["contact_width"], nominal["load"], known)
     return found

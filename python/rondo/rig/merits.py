@@ -11,6 +11,7 @@ from ..reports.document import folded, table
 from ..reports.encoding import number
 from .figures.drawing import said
 from .points import levels, nominal
+from .units import of_width
 
 if TYPE_CHECKING:
     from ..data.rig import Rig
@@ -42,7 +43,9 @@ def merits_of(rig: Rig) -> str:
             if not isinstance(entries, Sequence) or not all(isinstance(one, Mapping) for one in entries):
                 continue
             what, factor, unit = MERITS.get((test, name), (name.replace("_", " ").capitalize(), 1.0, "SI"))
-            rows = [(what, _at(one), f"{number(round(factor * one['value'], DIGITS) + 0.0)} {unit}") for one in entries if _is_number(one.get("value"))]
+            shown_unit = of_width(unit, rig.per_metre)
+            rows = [(what, _at(one, rig.per_metre), f"{number(round(factor * one['value'], DIGITS) + 0.0)} {shown_unit}")
+                    for one in entries if _is_number(one.get("value"))]
             whole += rows
             usual = _nominal(rig, entries)
             usual_rows += [row for one, row in zip(entries, rows) if all(one.get(key) == value for key, value in usual.items())]
@@ -65,8 +68,8 @@ def _nominal(rig: Rig, entries: Sequence[Mapping[str, Any]]) -> dict[str, float]
     return state
 
 
-def _at(one: Mapping[str, Any]) -> str:
-    return ", ".join(said(key, float(value)) if _is_number(value) else str(value).replace("-", " ")
+def _at(one: Mapping[str, Any], per_metre: bool) -> str:
+    return ", ".join(said(key, float(value), per_metre) if _is_number(value) else str(value).replace("-", " ")
                      for key, value in one.items() if key in (*STATES, "step"))
 
 

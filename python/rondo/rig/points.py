@@ -8,28 +8,31 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .units import column_name
+
 if TYPE_CHECKING:
     from ..data.rig import Rig
 
 Array = NDArray[np.float64]
 Columns = dict[str, Array]
 
-UNITS = {"Fx": "N", "Fy": "N", "Fz": "N", "Mx": "N m", "My": "N m", "Mz": "N m"}
 DONE = "done"
 ALIKE = 0.03  # relative: speeds of one spin differ by as much, because radii do with load and pressure
 
 
 def points(rig: Rig, test: str, names: Iterable[str]) -> Columns:
     """The columns `names` of the points of a test that are done, (rows,) each; NaN: the test does not have the column;
-    pressure 0: a wheel without air. Points of the mirrored tyre are left out. No rows where the rig has not come to the
+    pressure 0: a wheel without air. Forces are N, or N/m of a
+    rig per metre of width. Points of the mirrored tyre are left out. No rows where the rig has not come to the
     test."""
     wanted = list(names)
     if test not in rig.tests:
         return {name: np.empty(0) for name in wanted}
     table = rig.tests[test].table
     done = done_rows(rig, test)
-    found = {name: np.asarray(table[name], dtype=float)[done] if name in table else np.full(len(done), np.nan)
-             for name in wanted}
+    there = {name: column_name(name, rig.per_metre) for name in wanted}
+    found = {name: np.asarray(table[column], dtype=float)[done] if column in table else np.full(len(done), np.nan)
+             for name, column in there.items()}
     if "pressure" in found:
         found["pressure"] = np.nan_to_num(found["pressure"], nan=0.0)
     return found

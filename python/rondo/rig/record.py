@@ -8,15 +8,19 @@ import json
 import math
 import os
 import pathlib
+import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..data.errors import FileError
 from ..data.tydex import write_tydex
 from ..files import tydex
+from .blocks import Bench
+from .plane import sentence
 from .rows import DONE
 from .states import Row
-from .tests_table import TESTS
+from .tests_table import SIDEWAYS, TESTS
+from .units import column_name
 
 FORMAT = "rondo rig 1"
 CHANNELS = {"SLIPANGL": "slip_angle", "LONGSLIP": "slip_ratio", "INCLANGL": "camber", "INFLPRES": "pressure",
@@ -38,27 +42,32 @@ def write_json(path: pathlib.Path, document: Mapping[str, Any]) -> None:
     replace_text(path, json.dumps(_plain(document), indent=2, ensure_ascii=False) + "\n")
 
 
-def write_table(directory: pathlib.Path, test: str, rows: Sequence[Row]) -> str:
+def write_table(directory: pathlib.Path, test: str, rows: Sequence[Row], bench: Bench) -> str:
     """Its CSV file; the name."""
-    columns = TESTS[test].columns
+    columns = TESTS[test].columns_of(bench.tyre.is_plane)
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(columns)
+    writer.writerow(column_name(name, bench.per_metre) for name in columns)
     writer.writerows([_cell(row.get(name)) for name in columns] for row in rows)
     replace_text(directory / f"{test}.csv", out.getvalue())
     return f"{test}.csv"
 
 
-def write_channels(directory: pathlib.Path, test: str, title: str, rows: Sequence[Row]) -> str | None:
-    """Its TYDEX file, of the points that are done; None: of a test without forces, or without points."""
+def write_channels(directory: pathlib.Path, test: str, rows: Sequence[Row], bench: Bench) -> str | None:
+    """Its TYDEX file, of the points that are done; None: of a test without forces, or without points, and of forces per
+    metre of width, which the format does not have."""
     found = [row for row in rows if row["status"] == DONE and not row.get("mirrored")]
     file = directory / f"{test}.tdx"
-    if not TESTS[test].has_forces or not found:
+    if not TESTS[test].has_forces or not found or bench.per_metre:
         file.unlink(missing_ok=True)
         return None
-    columns = {name: [row[column] for row in found] for name, column in CHANNELS.items() if found[0][column] is not None}
+    plane = bench.tyre.is_plane
+    columns = {name: [row[column] for row in found] for name, column in CHANNELS.items()
+               if found[0][column] is not None and not (plane and column in SIDEWAYS)}
     columns["LONGVEL"] = [row["speed"] * math.cos(row["slip_angle"]) for row in found]
-    comments = ["Computed states of steady rolling, not measured", title[:70]]
+    comments = ["Computed states of steady rolling, not measured", bench.tyre.title[:70]]
+    if plane:
+        comments += textwrap.wrap(sentence(bench.tyre.plane_kind, bench.top.get("width")), 70)
     write_tydex(file, tydex(columns, header={"RELEASE": "1.3", "MEASID": test}, comments=comments))
     return file.name
 

@@ -15,9 +15,10 @@ from ..reports.document import Document, folded, note, paragraph, table, tiles
 from ..reports.encoding import escaped, number
 from ..reports.pictures import picture
 from .figures import figures_of, tir_of
-from .fit import NO_POINTS, has_forces, residuals_of
+from .fit import residuals_of, why_none
 from .fit_rows import rows_of
 from .merits import merits_of
+from .plane import NO_FILES, sentence
 from .points import DONE
 from .trends import trends
 
@@ -54,9 +55,12 @@ def page(rig: Rig, against: Comparison | None = None) -> Document:
         is_wide = bool(one.figure.get_size_inches()[0] >= style.PAGE)
         drawn[one.test] = drawn.get(one.test, "") + picture(one.figure, one.words, is_wide)
     for name, test in rig.tests.items():
-        document.section(f"test-{name}", escaped(name.replace("-", " ").capitalize()), _test(test, drawn.get(name, "")))
-    document.section("trends", "Trends of tyres", _trends(rig))
+        document.section(f"test-{name}", escaped(name.replace("-", " ").capitalize()), _test(test, drawn.get(name, ""), rig.per_metre))
+    if not rig.plane:  # all of them are of the slip angle or of air
+        document.section("trends", "Trends of tyres", _trends(rig))
     document.section("fit", "The fitted tyre.tir", _fit(rig))
+    if told := rig.info.get("fmu"):
+        document.section("fmu", "The reduced wheel tyre.fmu", _fmu(told))
     if against is not None:
         document.section("against", "Against measurements", _against(against))
     document.section("how", "How it was run", _how(rig))
@@ -69,9 +73,11 @@ def _summary(rig: Rig) -> str:
     cards = [("tests finished", f"{done} of {len(statuses)}", "good" if done == len(statuses) else "warn", ""),
              ("points", number(sum(_points(test) for test in rig.tests.values())), "", "rows of all tables"),
              ("failed points", number(failed), "warn" if failed else "good", "each with its reason below")]
+    forces = paragraph(escaped(sentence(rig.plane, rig.width))) if rig.plane else ""
+    forces += note(NO_FILES) if rig.per_metre else ""
     unfinished = "" if done == len(statuses) else note(
         "Not all tests of this rig are finished: the page shows what is there. The command that began it goes on with it.")
-    return unfinished + tiles(cards) + merits_of(rig)
+    return unfinished + forces + tiles(cards) + merits_of(rig)
 
 
 def _points(test: RigTest) -> int:
@@ -93,19 +99,26 @@ def _value(value: Any) -> str:
     return number(value) if isinstance(value, (int, float)) or value is None else str(value)
 
 
-def _test(test: RigTest, drawn: str) -> str:
+def _fmu(told: Mapping[str, Any]) -> str:
+    return note(f"Status: {told['status']}: {told['reason']}") if told.get("reason") else \
+        paragraph(escaped(f"tyre.fmu has the reduced wheel for co-simulation (docs/fmu.md). {told.get('note', '')}"))
+
+
+def _test(test: RigTest, drawn: str, per_metre: bool) -> str:
     status = str(test.info.get("status", "not begun"))
     reason = test.info.get("reason")
     said = paragraph(escaped(MEANINGS.get(test.name, "")))
     if status != FINISHED:
         said += note(f"Status: {status}{f': {reason}' if reason else ''}")
+    said += paragraph(escaped(test.info["note"])) if test.info.get("note") else ""
     said += _failures(test) + drawn
     if not test.table:
         return said
     head = [name for name, column in test.table.items() if name not in ("status", "reason") and _says_something(column)]
     rows = [[cell if isinstance(cell, str) else number(float(cell)) for cell in row]
             for row in zip(*(test.table[name].tolist() for name in head))]
-    return said + folded(f"Table of {_points(test)} point{'s' if _points(test) != 1 else ''}, SI units",
+    units = f"SI units{', forces and moments per metre of width' if per_metre else ''}"
+    return said + folded(f"Table of {_points(test)} point{'s' if _points(test) != 1 else ''}, {units}",
                          table(head, rows, f"Points of the test {test.name}", ["number"] * len(head)))
 
 
@@ -136,7 +149,7 @@ def _fit(rig: Rig) -> str:
     except Error as reason:
         return note(reason)
     if tir is None:
-        return note("There is no tyre.tir: " + (FIT_IT if has_forces(rows_of(rig)) else NO_POINTS))
+        return note("There is no tyre.tir: " + (why_none(rig, rows_of(rig)) or FIT_IT))
     rows = [(name, one.rows, f"{number(one.rms)} {one.unit}", f"{number(100 * one.of_largest, 3)} %",
              f"{number(one.largest)} {one.unit}") for name, one in residuals_of(tir, rows_of(rig)).items()]
     shown = table(("channel", "points", "rms of the difference", "over the largest size", "largest difference"), rows,

@@ -16,10 +16,12 @@ from ..data.plain_files import text_of
 from ..data.run import open_run
 from ..data.sweep import open_sweep
 from .blocks import MODES, RESULTS, SWEEP, Bench, Block, Point
+from .slip_step import slip_step_of
 from .states import Row, States
 from .time_tests import SETTLING, measured_from
 
 DONE, FAILED = "done", "failed"
+IN_PLANE, OUT_OF_PLANE = ("force_x", "force_y", "torque"), ("force_lateral", "moment_aligning", "moment_overturning")
 FORCE_OF = {"slip-angle": "force_lateral", "slip-ratio": "force_x"}  # by the step
 
 
@@ -41,6 +43,10 @@ def _rows(bench: Bench, states: States | None, block: Block, folder: pathlib.Pat
         yield from _of_modes(block, folder, where)
     elif block.test in ("cleat", "road"):
         yield _of_history(bench, block, folder, where)
+    elif block.test == "relaxation" and bench.tyre.is_plane:
+        found = slip_step_of(open_run(folder))
+        yield {**_asked(block.points[0]), "relaxation_length_63": found.length, "relaxation_length_fit": found.fitted,
+               "run": where, "status": DONE, "reason": ""}
     else:
         info = read_json(folder / "run.json")
         _demand_done(info)
@@ -74,7 +80,8 @@ def _of_sweep(bench: Bench, states: States | None, block: Block, folder: pathlib
 
 def _of_steady(bench: Bench, states: States | None, p: Point, info: Mapping[str, Any], where: str) -> Row:
     found = dict(info["steady"])
-    found |= {"height_m": found["height"], "footprint_length_m": found.get("footprint_length"),
+    in_contact = found["stick_length"] + found["slip_length"] if bench.tyre.is_plane else None
+    found |= {"height_m": found["height"], "footprint_length_m": found.get("footprint_length"), "contact_length_m": in_contact,
               "footprint_width_m": found.get("footprint_width"), "pressure_mean_pa": found.get("pressure_mean"),
               "contact_area_m2": found.get("stick_area", 0.0) + found.get("slip_area", 0.0)}
     return _row(bench, states, p, found, where)
@@ -87,10 +94,12 @@ def free_radius(found: Mapping[str, Any], spin: float) -> float:
 
 
 def _row(bench: Bench, states: States | None, p: Point, found: Mapping[str, Any], where: str) -> Row:
-    tyre = axes.convert(axes.own(
-        **{name: found[name] for name in ("force_x", "force_y", "force_lateral", "moment_aligning", "moment_overturning",
-                                          "torque")},
-        height=found["height_m"], camber=-p.camber, slip_angle=-p.slip_angle), "iso-w")
+    if bench.tyre.is_plane:
+        length = float(found["contact_length_m"])
+        found = {**found, **dict.fromkeys(OUT_OF_PLANE, 0.0), "footprint_length_m": length,
+                 "pressure_mean_pa": float(found["force_y"]) / length, "rolling_resistance": bench.width * float(found["rolling_resistance"])}
+    forces: dict[str, Any] = {name: bench.width * float(found[name]) for name in (*IN_PLANE, *OUT_OF_PLANE)}
+    tyre = axes.convert(axes.own(**forces, height=found["height_m"], camber=-p.camber, slip_angle=-p.slip_angle), "iso-w")
     spin, ahead = bench.spin(p.speed), float(found["speed"]) * np.cos(p.slip_angle)
     free = p.slip_angle == 0.0 and p.camber == 0.0 and p.slip_ratio is None
     radius = ahead / spin if free or states is None else states.effective_radius(p.pressure, p.load)
@@ -125,6 +134,7 @@ def _of_history(bench: Bench, block: Block, folder: pathlib.Path, where: str) ->
     piece, before = time >= measured_from(bench, block), (time >= 0.8 * SETTLING) & (time < SETTLING)
     if piece.sum() < 2:
         raise Error("the run ends before all of the contact is on the cleat or the road")
+    along, up = bench.width * along, bench.width * up
     row = {**_asked(p), "mean_Fz": float(up[before].mean()), "ripple_Fz": float(up[before].std()),
            "run": where, "status": DONE, "reason": ""}
     if block.test == "cleat":

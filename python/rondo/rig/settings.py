@@ -11,15 +11,18 @@ from typing import Any
 
 from ..data.errors import InputError
 from ..data.plain_files import text_of
-from .keys import COUNT, NUMBER, NUMBERS, TABLES, TEXT, TOP, Key
+from .keys import ALL, COUNT, NUMBER, NUMBERS, PLANE, SPACE, TABLES, TEXT, TOP, Key, tables_of
 from .toml_text import value_text
+from .units import of_width
 
 Values = dict[str, Any]
+_INSTEAD = {SPACE: "; this wheel has its own width, disk.width or that of its section"}
+
 Settings = dict[str, Values]  # by table and key, in the units of keys.py; TOP has those of all tests
 
 
-def read_settings(path: pathlib.Path | None) -> Settings:
-    """What a rig file says; without one, nothing.
+def read_settings(path: pathlib.Path | None, wheels: str = SPACE) -> Settings:
+    """What a rig file says for a wheel of this kind; without a file, nothing.
     @raise InputError: with all that is wrong in it."""
     if path is None:
         return {TOP: {}}
@@ -30,43 +33,56 @@ def read_settings(path: pathlib.Path | None) -> Settings:
     wrong: list[str] = [] if "schema" in found else ["schema: is missing (allowed: schema = 1)"]
     given: Settings = {}
     single = {name: value for name, value in found.items() if not isinstance(value, Mapping)}
-    given[TOP] = _table("", TABLES[TOP], single, wrong)
+    per_metre = is_per_metre(wheels, single)
+    tests = tables_of(wheels)
+    given[TOP] = _table("", TABLES[TOP], single, wrong, wheels, per_metre)
     for name, value in found.items():
         if not isinstance(value, Mapping):
             continue
-        if name in TABLES and name != TOP:
-            given[name] = _table(f"{name}.", TABLES[name], value, wrong)
+        if name in tests and name != TOP:
+            given[name] = _table(f"{name}.", TABLES[name], value, wrong, wheels, per_metre)
         else:
-            wrong.append(f"[{name}]: no such table (allowed: {_near(name, [n for n in TABLES if n != TOP])})")
+            why = f"is of {SPACE}, and this one is plane" if name in TABLES else "no such table"
+            wrong.append(f"[{name}]: {why} (allowed: {_near(name, [n for n in tests if n != TOP])})")
     if wrong:
         raise InputError("\n".join(f"{path}: {text}" for text in wrong))
     return given
 
 
-def settings_text(settings: Settings, title: str) -> str:
+def is_per_metre(wheels: str, top: Mapping[str, Any]) -> bool:
+    """Forces of this wheel are per metre of width. `top`: the values at the top of its rig file."""
+    return wheels == PLANE and top.get("width") is None
+
+
+def settings_text(settings: Settings, title: str, wheels: str = SPACE) -> str:
     """A rig file with all values, and what each key means."""
+    per_metre = is_per_metre(wheels, settings[TOP])
     lines = [f"# What the rig does with: {title}. These are the defaults; leave out what you do not change.",
              "# Angles, slip ratios and forces are those of ISO 8855 (docs/conventions.md).", ""]
-    for table, keys in TABLES.items():
+    for table, keys in tables_of(wheels).items():
         if table != TOP:
             lines += ["", f"[{table}]"]
         for key in keys:
             value = settings.get(table, {}).get(key.name)
             if value is not None:
-                unit = "" if key.unit == "1" else f", {key.unit}"
+                unit = "" if key.unit == "1" else f", {of_width(key.unit, per_metre)}"
                 lines.append(f"{key.name} = {value_text(value)}  # {key.meaning}{unit}")
     return "\n".join(lines) + "\n"
 
 
-def _table(prefix: str, keys: tuple[Key, ...], found: Mapping[str, Any], wrong: list[str]) -> Values:
+def _table(prefix: str, keys: tuple[Key, ...], found: Mapping[str, Any], wrong: list[str], wheels: str,
+           per_metre: bool) -> Values:
     known = {key.name: key for key in keys}
     values: Values = {}
     for name, value in found.items():
         if name not in known:
-            wrong.append(f"{prefix}{name}: no such key (allowed: {_near(name, list(known))})")
+            there = [key.name for key in keys if key.wheels in (ALL, wheels)]
+            wrong.append(f"{prefix}{name}: no such key (allowed: {_near(name, there)})")
+        elif known[name].wheels not in (ALL, wheels):
+            wrong.append(f"{prefix}{name}: is of {known[name].wheels} (allowed: leave it out{_INSTEAD.get(wheels, '')})")
         elif not _is_right(known[name], value):
             once = ", each once" if known[name].kind == NUMBERS else ""
-            wrong.append(f"{prefix}{name} = {_short(value)} (allowed: {known[name].allowed()}{once})")
+            wrong.append(f"{prefix}{name} = {_short(value)} (allowed: {known[name].allowed(per_metre)}{once})")
         else:
             values[name] = _plain(known[name], value)
     return values

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 from .blocks import RUN, Bench, Block, Point, steady_block, steady_case
 from .states import States
+from .time_tests import plane_relaxation
 
 Builder = Callable[[Bench, States], list[Block]]
 
@@ -18,6 +19,10 @@ def pressures_of(bench: Bench, test: str) -> list[float | None]:
 
 def _name(test: str, pressure: float | None, *more: str) -> str:
     return "-".join([test, *([f"{pressure / 1e3:.9g}kPa"] if pressure is not None else []), *more])
+
+
+def _load_text(bench: Bench, load: float) -> str:
+    return f"{load:.9g}N{'-per-m' if bench.per_metre else ''}"
 
 
 def reference(bench: Bench, spin: float) -> Block:
@@ -48,12 +53,17 @@ def at_speeds(bench: Bench, tests: Sequence[str]) -> list[Block]:
 def footprint(bench: Bench, states: States) -> list[Block]:
     """Runs of their own, which keep their contact patches."""
     own, blocks = bench.settings["footprint"], []
+    if bench.tyre.is_plane:
+        for load in own["loads"]:
+            case = steady_case(bench, "footprint", None, bench.spin(), load, torque=0.0)
+            blocks.append(Block("footprint", f"footprint-{_load_text(bench, load)}", RUN, case,
+                                (Point(load, None, bench.top["speed"]),)))
+        return blocks
     for camber_deg in own["cambers_deg"]:
         for load in own["loads"]:
             p = Point(load, bench.pressure, bench.top["speed"], math.radians(camber_deg))
-            case = steady_case(bench, "footprint", p.pressure, bench.spin(), torque=0.0)
+            case = steady_case(bench, "footprint", p.pressure, bench.spin(), load, torque=0.0)
             case["motion"]["camber"] = 0.0 - p.camber
-            case["analysis"]["load"] = load
             blocks.append(Block("footprint", f"footprint-{load:.9g}N-camber{camber_deg:.9g}deg", RUN, case, (p,)))
     return blocks
 
@@ -119,10 +129,12 @@ def rolling_resistance(bench: Bench, states: States) -> list[Block]:
 def relaxation(bench: Bench, states: States) -> list[Block]:
     """The way after a step of the slip angle and of the slip ratio, from free rolling: of the latter at its speed."""
     own, p = bench.settings["relaxation"], bench.pressure
+    if bench.tyre.is_plane:
+        return [plane_relaxation(bench, states, load) for load in own["loads"]]
     blocks = []
     for step, size in (("slip-angle", -math.radians(own["slip_angle_step_deg"])), ("slip-ratio", own["slip_ratio_step"])):
         for load in own["loads"]:
-            case = steady_case(bench, "relaxation", p, bench.spin(), load=load, slip="upwind",
+            case = steady_case(bench, "relaxation", p, bench.spin(), load, slip="upwind",
                                **{f"{step.replace('-', '_')}_step": size, "step_distance": own["distance"]})
             if step == "slip-ratio":
                 case["motion"]["speed"] = bench.spin() * states.effective_radius(p, load)

@@ -14,6 +14,8 @@ RESULT = ("height", "deflection", "effective_radius", "contact_length", "contact
 FORCES = ("Fx", "Fy", "Fz", "Mx", "My", "Mz")
 END = ("run", "status", "reason")
 _STEADY = (*STATE, *RESULT, *FORCES)
+SIDEWAYS = ("Fy", "Mx", "Mz")  # forces that a plane wheel does not have
+SPATIAL = ("pressure", "camber", "slip_angle", "contact_width", "contact_area", "standing", *SIDEWAYS)
 
 
 @dataclass(frozen=True)
@@ -21,6 +23,9 @@ class Test:
     blocks: Builder
     columns: tuple[str, ...]
     has_forces: bool = True  # its table is a TYDEX file as well
+
+    def columns_of(self, is_plane: bool) -> tuple[str, ...]:
+        return tuple(name for name in self.columns if not is_plane or name not in SPATIAL)
 
 
 TESTS: Mapping[str, Test] = {

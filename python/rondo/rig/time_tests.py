@@ -11,6 +11,7 @@ import numpy as np
 
 from ..data.errors import Error
 from .blocks import FMU, MODES, RUN, Bench, Block, Point, ground_of, steady_case, tyre_case
+from .slip_step import JUMP, steps_of, times_of
 from .states import States
 
 LANDING = 0.06        # s, in which the wheel comes down to its height
@@ -32,7 +33,12 @@ def measured_from(bench: Bench, block: Block) -> float:
 def node_distance(bench: Bench) -> float:
     """m, of two contact nodes around the wheel, with a margin: edges of the ground are as round, because contacts are at
     nodes."""
-    return 1.05 * 2.0 * math.pi * bench.radius / float(bench.top["sectors"])
+    between = bench.top["sectors"]
+    if bench.tyre.has_tread:  # across a groove
+        tread = bench.tyre.case["disk"]["tread"]
+        columns = max(1, tread["groove_columns"])
+        between *= (tread["land_columns"] + tread["groove_columns"]) / columns
+    return 1.05 * 2.0 * math.pi * bench.radius / float(between)
 
 
 def cleat_ramp(height: float, length: float, fillet: float) -> float:
@@ -114,12 +120,44 @@ def fmu(bench: Bench, states: States) -> Block:
     return replace(block, kind=FMU, options=block.options[1:])  # without --reduced, which it is
 
 
+def stable_step(bench: Bench) -> Block:
+    """A run of a plane wheel above the ground for a moment, which tells the time step of its runs in time."""
+    case = tyre_case(bench, "step", None)
+    case["damping"] = {**case.get("damping", {}), "mass": bench.settings["relaxation"]["mass_damping"]}
+    case["motion"] = {"angular_velocity": bench.spin(), "speed": bench.top["speed"], "height": 1.01 * bench.radius}
+    case["ground"] = ground_of(bench)
+    case["time"] = {"end": 1e-6}
+    case["output"] = {"stress": False, "snapshots": 1}
+    point = Point(bench.top["load"], None, bench.top["speed"])
+    return Block("reference", "time-step", RUN, case, (point,))
+
+
+def plane_relaxation(bench: Bench, states: States, load: float) -> Block:
+    """Rolls freely at the height of its load, and turns on at the speed of another slip ratio."""
+    own, spin = bench.settings["relaxation"], bench.spin()
+    speed = spin * states.effective_radius(None, load)
+    after = speed / (1.0 + own["slip_ratio_step"])
+    pass_s = 2.0 * math.pi / spin / bench.top["sectors"]
+    begin, end = times_of(own["distance"], speed, pass_s)
+    step, interval = steps_of(pass_s, bench.stable_step or pass_s)
+    case = tyre_case(bench, "relaxation", None)
+    case["damping"] = {**case.get("damping", {}), "mass": own["mass_damping"]}
+    case["motion"] = {"angular_velocity": spin, "height": states.height(None, load),
+                      "speed": [[0.0, speed], [begin, speed], [begin + JUMP * pass_s, after]]}
+    case["ground"] = ground_of(bench)
+    case["initial"] = {"state": "steady-rolling"}
+    case["time"] = {"end": end, "step": step}
+    case["output"] = {"stress": False, "snapshots": 1, "history_interval": interval}
+    point = Point(load, None, bench.top["speed"], extra={"step": "slip-ratio"})
+    return Block("relaxation", f"relaxation-slip-ratio-{load:.9g}N{'-per-m' if bench.per_metre else ''}", RUN, case, (point,))
+
+
 def modes(bench: Bench, states: States) -> list[Block]:
     """Free under air, and standing on the ground under the nominal load; both without spin."""
     p = Point(bench.top["load"], bench.pressure, 0.0)
     count = str(bench.settings["modes"]["count"])
     blocks = []
-    for name, more in (("free", ()), ("standing", ("--standing",))):
+    for name, more in (("free", ()), *(() if bench.tyre.is_plane else (("standing", ("--standing",)),))):
         case = steady_case(bench, f"modes-{name}", p.pressure, bench.spin(), torque=0.0)
         options: Sequence[str] = ("--count", count, "--spin", "0", *more)
         point = Point(p.load, p.pressure, 0.0, extra={"standing": int(name == "standing")})

@@ -10,6 +10,9 @@ from typing import Any
 
 from ..data.errors import InputError
 from ..data.plain_files import text_of
+from .keys import PLANE, SPACE
+from .plane import demand_plane_wheel, is_plane, kind_of
+from .slip_step import sectors_of
 
 
 @dataclass(frozen=True)
@@ -26,7 +29,7 @@ class Tyre:
 
     @property
     def load(self) -> float | None:
-        """N: of the analysis, or the last of the table of the rim."""
+        """N, of a plane wheel N/m: of the analysis, or the last of the table of the rim."""
         found = self.case.get("analysis", {}).get("load")
         if not isinstance(found, (int, float)):
             found = -(_last(self.case.get("rim", {}).get("force_y")) or 0.0)
@@ -39,12 +42,32 @@ class Tyre:
 
     @property
     def sectors(self) -> int:
-        return int(self.case["section"]["sectors"] if "section" in self.case
-                   else self.case["disk"]["mesh"]["circumferential"])
+        """Around the axle; of a tread its pitches."""
+        return int(self.case["section"]["sectors"]) if "section" in self.case else sectors_of(self.case)
+
+    @property
+    def is_plane(self) -> bool:
+        return is_plane(self.case)
+
+    @property
+    def plane_kind(self) -> str:
+        """"strain" or "stress"; "" of a wheel in three dimensions."""
+        return kind_of(self.case) if self.is_plane else ""
+
+    @property
+    def wheels(self) -> str:
+        """The kind of wheel, as keys of rig files name it."""
+        return PLANE if self.is_plane else SPACE
+
+    @property
+    def has_tread(self) -> bool:
+        return "tread" in self.case.get("disk", {})
 
     @property
     def samples(self) -> int:
-        return int(self.case.get("analysis", {}).get("samples_per_sector", 2))
+        """In the pass of a sector: those of the case, but no more than the rig needs."""
+        most = (16 if self.has_tread else 4) if self.is_plane else 2
+        return min(most, int(self.case.get("analysis", {}).get("samples_per_sector", most)))
 
     @property
     def friction(self) -> float | None:
@@ -69,23 +92,26 @@ class Tyre:
 
 
 def read_tyre(path: pathlib.Path) -> Tyre:
-    """@raise InputError: no TOML, or no wheel with a width."""
+    """@raise InputError: no TOML, or no wheel that the rig can test."""
     text = text_of(path)
     try:
         case = tomllib.loads(text)
     except ValueError as reason:
         raise InputError(f"{path}: cannot be read: {reason}") from None
-    if "section" not in case and not (isinstance(case.get("disk"), dict) and "width" in case["disk"]):
-        raise InputError(f"{path}: the rig tests wheels in three dimensions: a [section], or a [disk] with a width; "
-                         "for a wheel in the plane, rondo sweep varies load, slip and speed (docs/steady.md)")
+    if "section" not in case and not isinstance(case.get("disk", case.get("mesh")), dict):
+        raise InputError(f"{path}: has no wheel (allowed: a [section], or a [disk], in the plane or with a width)")
+    if is_plane(case):
+        demand_plane_wheel(path, case)
     if "section" in case and "file" not in case["section"]:
         raise InputError(f"{path}: section.file: is missing (allowed: a mesh of the section, docs/tyre.md)")
     if "sectors" not in case.get("section", {"sectors": 1}):
         raise InputError(f"{path}: section.sectors: is missing: the rig tests wheels that are swept around the axle")
     disk = case.get("disk", {})
-    if "tread" in disk or "section" not in case and "circumferential" not in disk.get("mesh", {}):
-        raise InputError(f"{path}: disk.tread and meshes by pitches: the rig tests wheels that are the same around the axle "
-                         "(allowed: a disk with disk.mesh.circumferential and without disk.tread, or a [section])")
+    if "tread" in disk and not is_plane(case):
+        raise InputError(f"{path}: disk.tread: of wheels in three dimensions the rig tests those that are the same around the "
+                         "axle (allowed: no disk.tread; or a plane disk, without disk.width)")
+    if "section" not in case and "tread" not in disk and "circumferential" not in disk.get("mesh", {}):
+        raise InputError(f"{path}: disk.mesh.circumferential: is missing (allowed: columns of elements around the axle, as 120)")
     return Tyre(path, text, case)
 
 

@@ -10,7 +10,7 @@ from matplotlib.patches import Circle
 from ..against import rows_near
 from ..fit_rows import INPUTS
 from ..points import chosen, levels, nominal, points
-from .drawing import (AXES, FX, FY, SLIP_RATIO, Drawn, Given, cross, curve, few, legend, measured, panels, said, scaled)
+from .drawing import (AXES, FX, FY, SLIP_RATIO, Drawn, Given, cross, curve, few, legend, measured, panels)
 from .slip import fitted_curve
 
 TESTS = ("combined", "longitudinal")  # whose points are drawn: the second at no slip angle
@@ -30,9 +30,9 @@ def draw(given: Given) -> Iterator[Drawn]:
         here = chosen(found, np.isclose(found["load"], load, rtol=1e-6))
         angles = few(levels(here["slip_angle"]))
         figure, (left, right) = panels(2, height=HEIGHT)
-        factor, across = scaled(FY, here["Fy"])
-        along = scaled(FX, here["Fx"])
-        percent, ratio = scaled(SLIP_RATIO, here["slip_ratio"])
+        factor, across = given.scaled(FY, here["Fy"])
+        along = given.scaled(FX, here["Fx"])
+        percent, ratio = given.scaled(SLIP_RATIO, here["slip_ratio"])
         for ax in (left, right):
             cross(ax)
         has_fit = False
@@ -52,8 +52,8 @@ def draw(given: Given) -> Iterator[Drawn]:
             measured(left, along[0] * states["Fx"], factor * states["Fy"])
         left.set(xlabel=along[1], ylabel=across, aspect="equal")
         right.set(xlabel=ratio, ylabel=along[1])
-        legend(figure, [said("slip_angle", angle) for angle in angles], has_fit, states is not None)
+        legend(figure, [given.said("slip_angle", angle) for angle in angles], has_fit, states is not None)
         circle = f"; the circle is friction, {friction:g}, times the load" if friction else ""
         yield Drawn("combined", f"combined-{load / 1e3:g}kN", "Lateral over longitudinal force, and longitudinal force over "
-                    f"the slip ratio, by slip angle, at {said('load', load)}, {said('pressure', pressure)}{circle}. {AXES}.",
+                    f"the slip ratio, by slip angle, at {given.said('load', load)}, {given.said('pressure', pressure)}{circle}. {AXES}.",
                     figure)

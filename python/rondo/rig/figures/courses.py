@@ -11,7 +11,7 @@ from ...data.errors import Error
 from ...plots.curves import force_spectrum
 from ...plots.psd import power_spectral_density
 from ..points import Array, Columns, nominal
-from .drawing import Drawn, Given, curve, few, legend, panels, said
+from .drawing import Drawn, Given, curve, few, legend, panels
 from .runs import Missing, opened, with_runs
 
 if TYPE_CHECKING:
@@ -37,25 +37,28 @@ def _courses(given: Given, test: str, words: str) -> Iterator[Drawn]:
     if not drawn:
         return
     figure, axes = panels(2, 2)
+    width, unit = given.rig.width or 1.0, given.unit("N")
+    density = "(N/m)²/Hz" if given.rig.per_metre else "N²/Hz"
     for ax, below, (column, label, symbol) in zip(axes, axes[2:], FORCES):
         for k, (speed, run) in enumerate(drawn):
             edge = edge_of(run)
             begin = max((edge - BEFORE * run.outer_radius) / speed, 0.0)
             time = run.history["time_s"]
-            curve(ax, k, (speed * time - edge)[time >= begin], 1e-3 * run.history[column][time >= begin], marked=False)
+            curve(ax, k, (speed * time - edge)[time >= begin], 1e-3 * width * run.history[column][time >= begin], marked=False)
             try:
                 frequency, height = _spectrum(run, column, test, begin)
             except Error as reason:
                 missing.note(reason)
                 continue
             felt = (frequency > 0) & (frequency <= HIGHEST)
-            curve(below, k, frequency[felt], height[felt], marked=False)
-        ax.set(xlabel=f"way of the center from where the {test} begins (m)", ylabel=f"{label} {symbol} (kN)")
-        below.set(xlabel="frequency (Hz)", ylabel=f"density of {symbol} (N²/Hz)" if test == "road" else f"amplitude of {symbol} (N)",
+            curve(below, k, frequency[felt], (width ** 2 if test == "road" else width) * height[felt], marked=False)
+        ax.set(xlabel=f"way of the center from where the {test} begins (m)", ylabel=f"{label} {symbol} (k{unit})")
+        below.set(xlabel="frequency (Hz)",
+                  ylabel=f"density of {symbol} ({density})" if test == "road" else f"amplitude of {symbol} ({unit})",
                   xlim=(0, None))
         if below.lines:
             below.set_yscale("log")
-    legend(figure, [said("speed", speed) for speed, _ in drawn], marks=False)
+    legend(figure, [given.said("speed", speed) for speed, _ in drawn], marks=False)
     yield Drawn(test, test, f"{words}.{missing.words}", figure)
 
 

@@ -16,6 +16,7 @@ from ... import style
 from ...plots.labels import readable
 from ...plots.marks import minus
 from ..points import Array
+from ..units import of_width
 
 if TYPE_CHECKING:
     from ...data.tir import Tir
@@ -38,6 +39,32 @@ class Given:
     rig: Rig
     tir: Tir | None             # the fitted parameters; None: there are none yet
     against: Comparison | None  # measurements
+
+    def said(self, name: str, value: float) -> str:
+        """A level of a setting, as legends and sentences have it."""
+        return said(name, value, self.rig.per_metre)
+
+    def unit(self, unit: str) -> str:
+        """The unit of a force, a moment or a stiffness of this rig."""
+        return of_width(unit, self.rig.per_metre)
+
+    def scaled(self, channel: Channel, values: Array) -> tuple[float, str]:
+        """Factor and label of an axis: angles in degrees, slip ratios in percent, forces in kN."""
+        if channel.unit == "rad":
+            return 180 / np.pi, f"{channel.label} (°)"
+        if channel.name == "slip_ratio":
+            return 100.0, f"{channel.label} (%)"
+        size = float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 1.0
+        factor, unit = readable(size, self.unit(channel.unit))
+        return factor, f"{channel.label} ({unit})"
+
+    def airs(self, pressures: Sequence[float]) -> list[str]:
+        """Levels of the pressure for a legend; none of a plane wheel, which has no air."""
+        return [] if self.rig.plane else [self.said("pressure", pressure) for pressure in pressures]
+
+    @property
+    def load_label(self) -> str:
+        return f"load $F_z$ ({self.unit('kN')})"
 
 
 @dataclass(frozen=True)
@@ -74,19 +101,8 @@ def panels(columns: int, rows: int = 1, height: float = HEIGHT, narrow: bool = F
     return figure, list(np.atleast_1d(figure.subplots(rows, columns, squeeze=False)).ravel())
 
 
-def scaled(channel: Channel, values: Array) -> tuple[float, str]:
-    """Factor and label of an axis: angles in degrees, slip ratios in percent, forces in kN."""
-    if channel.unit == "rad":
-        return 180 / np.pi, f"{channel.label} (°)"
-    if channel.name == "slip_ratio":
-        return 100.0, f"{channel.label} (%)"
-    size = float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 1.0
-    factor, unit = readable(size, channel.unit)
-    return factor, f"{channel.label} ({unit})"
-
-
-def said(name: str, value: float) -> str:
-    """A level of a setting, as legends and sentences have it."""
+def said(name: str, value: float, per_metre: bool = False) -> str:
+    """A level of a setting in words. per_metre: loads are per metre of width."""
     if name in ("camber", "slip_angle"):
         symbol = {"camber": "γ", "slip_angle": "α"}[name]
         return minus(f"{symbol} = {np.degrees(value) + 0.0:.3g}°")
@@ -98,7 +114,12 @@ def said(name: str, value: float) -> str:
         return f"{value / 1e5:.3g} bar"
     if name == "speed":
         return f"{3.6 * value:.3g} km/h"
-    return f"{value / 1e3:.3g} kN" if name == "load" else f"{value:g}"
+    return f"{value / 1e3:.3g} {of_width('kN', per_metre)}" if name == "load" else f"{value:g}"
+
+
+def by_air(pressures: Sequence[float]) -> str:
+    """What tells the curves of these pressures apart, for a sentence; "": they are of wheels without air."""
+    return ", by pressure of the air" if any(pressures) else ""
 
 
 def cross(ax: Axes) -> None:

@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 
 from ...plots.solid.footprint import can_fold, draw_pressure, folded, footprint_of, last_contact, window
 from ..points import Array, Columns, chosen, levels, nominal, points
-from .drawing import MOST, Drawn, Given, curve, few, legend, panels, said
+from . import plane_footprint
+from .drawing import MOST, Drawn, Given, curve, few, legend, panels
 from .runs import Missing, opened, with_runs
 
 STATE = ("load", "camber", "pressure")
@@ -20,7 +21,7 @@ BESIDE = 2    # maps in a row
 
 
 def draw(given: Given) -> Iterator[Drawn]:
-    yield from _maps(given)
+    yield from (plane_footprint.draw(given) if given.rig.plane else _maps(given))
     yield from _sizes(given)
 
 
@@ -39,7 +40,7 @@ def _maps(given: Given) -> Iterator[Drawn]:
     for ax, (k, one) in zip(axes, prints):
         draw_pressure(ax, one)
         _frame(ax, low, high)
-        ax.set_title(f"{said('load', found['load'][k])}, {said('camber', found['camber'][k])}\n{ax.get_title()}")
+        ax.set_title(f"{given.said('load', found['load'][k])}, {given.said('camber', found['camber'][k])}\n{ax.get_title()}")
     for ax in axes[len(prints):]:
         ax.set_visible(False)
     yield Drawn("footprint", "footprint", "Pressure in the contact patch, seen from above, the wheel rolls to the right; "
@@ -69,18 +70,21 @@ def _sizes(given: Given) -> Iterator[Drawn]:
     """Over the load, by camber at the nominal pressure."""
     found = points(given.rig, "footprint", (*STATE, *(name for name, _, _ in SIZES)))
     found = chosen(found, np.isfinite(found["contact_length"]))
+    found["camber"] = np.nan_to_num(found["camber"])  # which a plane wheel does not have
     if len(levels(found["load"])) < 2:
         return
     pressure = nominal(given.rig, "pressure", found["pressure"])
     cambers = few(levels(found["camber"]))[:MOST]
-    figure, axes = panels(2, 2)
-    for ax, (name, factor, label) in zip(axes, SIZES):
+    sizes = [one for one in SIZES if np.isfinite(found[one[0]]).any()]
+    figure, axes = panels(2, -(-len(sizes) // 2))
+    for ax, (name, factor, label) in zip(axes, sizes):
         for k, camber in enumerate(cambers):
             one = chosen(found, np.isclose(found["camber"], camber, atol=1e-9)
                          & ~(np.abs(found["pressure"] - pressure) > 1e-6 * pressure))
             curve(ax, k, 1e-3 * one["load"], factor * one[name])
-        ax.set(xlabel="load $F_z$ (kN)", ylabel=label, xlim=(0, None), ylim=(0, None))
-    legend(figure, [said("camber", camber) for camber in cambers])
-    at = f", at {said('pressure', pressure)}" if np.isfinite(pressure) else ""
-    yield Drawn("footprint", "footprint-size", f"Size of the contact patch and mean pressure in it over the load, by camber{at}.",
-                figure)
+        ax.set(xlabel=given.load_label, ylabel=label, xlim=(0, None), ylim=(0, None))
+    if not given.rig.plane:
+        legend(figure, [given.said("camber", camber) for camber in cambers])
+    at = "" if given.rig.plane else f", at {given.said('pressure', pressure)}"
+    yield Drawn("footprint", "footprint-size", "Size of the contact patch and mean pressure in it over the load"
+                f"{'' if given.rig.plane else ', by camber'}{at}.", figure)

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 
 from ... import style
 from ..points import Columns, chosen, levels, points
-from .drawing import MARKS, Drawn, Given, few, legend, panels, said
+from .drawing import MARKS, Drawn, Given, by_air, few, legend, panels
 
 COLUMNS = ("pressure", "standing", "mode", "frequency", "damping_ratio", "nodal_diameter")
 
@@ -36,9 +36,9 @@ def draw(given: Given) -> Iterator[Drawn]:
     if damped:
         _marks(axes[-1], found, pressures, "frequency", "damping_ratio", 100.0)
         axes[-1].set(xlabel="frequency (Hz)", ylabel="damping ratio (%)", xlim=(0, None), ylim=(0, None))
-    legend(figure, [said("pressure", pressure) for pressure in pressures], lines=False)
-    yield Drawn("modes", "modes", "Natural frequencies of the inflated wheel on a fixed rim, free and standing on the ground, "
-                "by pressure of the air.", figure)
+    legend(figure, given.airs(pressures), lines=False)
+    yield Drawn("modes", "modes", f"Natural frequencies of the {'' if given.rig.plane else 'inflated '}wheel on a fixed rim, "
+                f"{'free' if given.rig.plane else 'free and standing on the ground'}{by_air(pressures)}.", figure)
 
 
 def _marks(ax: Axes, found: Columns, pressures: list[float], x: str, y: str, factor: float = 1.0) -> None:

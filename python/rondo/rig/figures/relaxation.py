@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from ...data.errors import Error
 from ...data.files import read_table
 from ..points import Array, levels, nominal, points, texts
-from .drawing import Drawn, Given, curve, few, legend, panels, said
+from ..slip_step import slip_step_of
+from .drawing import Drawn, Given, curve, few, legend, panels
 from .runs import Missing, opened, with_runs
 
 TEST = "relaxation"
@@ -43,10 +44,10 @@ def _courses(given: Given) -> Iterator[Drawn]:
             for row in rows[:1]:
                 _draw_course(ax, k, given, folders[row], kind, missing)
         ax.axhline(100 * REACHED, color="0.6", linewidth=0.7, linestyle=":", zorder=0)
-        ax.set(xlabel=f"distance rolled {STEPS[kind][1]} (m)", ylabel=f"change of the {STEPS[kind][2]} (%)", xlim=(0, None))
+        ax.set(xlabel=f"distance rolled {STEPS[kind][1]} (m)", ylabel=f"change of the\n{STEPS[kind][2]} (%)", xlim=(0, None))
     if not any(len(ax.lines) > 1 for ax in axes):
         return
-    legend(figure, [said("load", load) for load in loads], marks=False)
+    legend(figure, [given.said("load", load) for load in loads], marks=False)
     yield Drawn(TEST, "relaxation", f"How a force follows a step of its slip, by load. Dotted: {100 * REACHED:.1f} % of the "
                 f"change, which is reached after the relaxation length.{missing.words}", figure)
 
@@ -55,6 +56,10 @@ def _draw_course(ax: Axes, k: int, given: Given, folder: str, kind: str, missing
     column = STEPS[kind][0]
     for run in opened(given.rig, folder, missing):
         try:
+            if given.rig.plane:
+                step = slip_step_of(run)
+                curve(ax, k, step.distance, 100 * step.share, marked=False)
+                return
             table, said_by_run = read_table(run.directory / "slip-step.csv"), run.info["slip_step"][column]
         except (Error, KeyError, OSError) as reason:
             missing.note(f"{folder}: no step of the slip: {reason}")
@@ -74,7 +79,7 @@ def _lengths(given: Given) -> Iterator[Drawn]:
     for ax, kind in zip(axes, shown):
         for k, (name, _) in enumerate(LENGTHS):
             curve(ax, k, 1e-3 * found["load"][kinds == kind], found[name][kinds == kind])
-        ax.set(xlabel="load $F_z$ (kN)", ylabel=f"relaxation length\n{STEPS[kind][1]} (m)", xlim=(0, None), ylim=(0, None))
+        ax.set(xlabel=given.load_label, ylabel=f"relaxation length\n{STEPS[kind][1]} (m)", xlim=(0, None), ylim=(0, None))
     legend(figure, [words for _, words in LENGTHS])
     yield Drawn(TEST, "relaxation-length", "Relaxation length over the load: the distance at which 63.2 % of the change of the "
                 "force is reached, and that of the exponential which fits its course.", figure)

@@ -7,18 +7,17 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..points import ALIKE, chosen, levels, nominal, points
-from .drawing import Drawn, Given, curve, few, legend, panels, said
+from .drawing import Drawn, Given, by_air, curve, few, legend, panels
 
 STATE = ("load", "pressure", "speed")
-# Over which setting, by which, factor and label of the axis.
-FIGURES = (("speed", "load", 3.6, "speed (km/h)"), ("load", "pressure", 1e-3, "load $F_z$ (kN)"))
-NAMES = {"load": "load", "pressure": "pressure of the air"}
+# Over which setting, by which, factor and label of the axis; "": that of the load.
+FIGURES = (("speed", "load", 3.6, "speed (km/h)"), ("load", "pressure", 1e-3, ""))
 TEST = "rolling-resistance"
 
 
 def draw(given: Given) -> Iterator[Drawn]:
     for along, by, factor, label in FIGURES:
-        yield from _over(given, along, by, factor, label)
+        yield from _over(given, along, by, factor, label or given.load_label)
 
 
 def _over(given: Given, along: str, by: str, factor: float, label: str) -> Iterator[Drawn]:
@@ -32,12 +31,13 @@ def _over(given: Given, along: str, by: str, factor: float, label: str) -> Itera
         return
     values = few(levels(here[by], ALIKE))
     figure, axes = panels(2)
-    for ax, name, text in zip(axes, ("resistance", "coefficient"), ("rolling resistance (N)", "coefficient (N/kN)")):
+    for ax, name, text in zip(axes, ("resistance", "coefficient"), (f"rolling resistance ({given.unit('N')})", "coefficient (N/kN)")):
         for k, level in enumerate(values):
             one = chosen(here, np.isclose(here[by], level, rtol=ALIKE))
             curve(ax, k, factor * one[along], one[name])
         ax.set(xlabel=label, ylabel=text, xlim=(0, None), ylim=(0, None))
-    legend(figure, [said(by, level) for level in values])
-    at = f", at {said(rest, value)}" if np.isfinite(value) else ""
-    yield Drawn(TEST, f"{TEST}-{along}", f"Rolling resistance and its share of the load over the {along}, by {NAMES[by]}{at}.",
+    legend(figure, given.airs(values) if by == "pressure" else [given.said(by, level) for level in values])
+    at = f", at {given.said(rest, value)}" if np.isfinite(value) and not (given.rig.plane and rest == "pressure") else ""
+    apart = by_air(values) if by == "pressure" else f", by {by}"
+    yield Drawn(TEST, f"{TEST}-{along}", f"Rolling resistance and its share of the load over the {along}{apart}{at}.",
                 figure)

@@ -13,7 +13,7 @@ from ..against import rows_near
 from ..fit_rows import INPUTS
 from ..points import Array, Columns, chosen, levels, nominal, points
 from .drawing import (AXES, FX, FY, MX, MZ, SLIP_ANGLE, SLIP_RATIO, Channel, Drawn, Given, cross, curve, few, legend,
-                      measured, panels, said, scaled)
+                      measured, panels)
 
 STEPS = 121  # of a fitted curve
 SETTINGS = ("load", "pressure", "camber")
@@ -47,8 +47,8 @@ def _family(given: Given, test: str, along: Channel, channels: Sequence[Channel]
     figure, axes = panels(len(channels), narrow=len(channels) == 1)
     has_fit = has_measured = False
     for ax, channel in zip(axes, channels):
-        factor_x, label_x = scaled(along, here[along.name])
-        factor_y, label_y = scaled(channel, here[channel.name])
+        factor_x, label_x = given.scaled(along, here[along.name])
+        factor_y, label_y = given.scaled(channel, here[channel.name])
         cross(ax)
         for k, value in enumerate(values):
             one = chosen(here, _at(here, {by: value}))
@@ -61,9 +61,9 @@ def _family(given: Given, test: str, along: Channel, channels: Sequence[Channel]
             measured(ax, factor_x * states[along.name], factor_y * states[channel.name])
             has_measured = True
         ax.set(xlabel=label_x, ylabel=label_y)
-    legend(figure, [said(by, value) for value in values], has_fit, has_measured)
-    at = ", ".join(said(key, value) for key, value in rest.items() if np.isfinite(value))
-    yield Drawn(test, f"{test}-{name}", f"{words}, by {NAMES[by]}, at {at}. {AXES}.", figure)
+    legend(figure, [given.said(by, value) for value in values], has_fit, has_measured)
+    at = ", ".join(given.said(key, value) for key, value in rest.items() if np.isfinite(value) and not (given.rig.plane and key == "pressure"))
+    yield Drawn(test, f"{test}-{name}", f"{words}, by {NAMES[by]}{', at ' if at else ''}{at}. {AXES}.", figure)
 
 
 def _at(found: Columns, values: dict[str, float]) -> np.ndarray:

@@ -8,7 +8,7 @@ import numpy as np
 
 from ..points import Columns, chosen, levels
 from ..slopes import cornering, load_deflection, slip_stiffness
-from .drawing import AXES, Drawn, Given, curve, few, legend, panels, said
+from .drawing import AXES, Drawn, Given, by_air, curve, few, legend, panels
 
 
 def draw(given: Given) -> Iterator[Drawn]:
@@ -27,11 +27,11 @@ def _vertical(given: Given) -> Iterator[Drawn]:
         one = curves[pressure]
         curve(left, k, 1e3 * one["deflection"], 1e-3 * one["load"])
         curve(right, k, 1e-3 * one["load"], 1e-3 * one["stiffness"])
-    left.set(xlabel="deflection (mm)", ylabel="load $F_z$ (kN)", xlim=(0, None), ylim=(0, None))
-    right.set(xlabel="load $F_z$ (kN)", ylabel="radial stiffness $dF_z/dz$ (N/mm)", xlim=(0, None), ylim=(0, None))
-    legend(figure, [said("pressure", pressure) for pressure in few(list(curves))])
+    left.set(xlabel="deflection (mm)", ylabel=given.load_label, xlim=(0, None), ylim=(0, None))
+    right.set(xlabel=given.load_label, ylabel=f"radial stiffness $dF_z/dz$ ({given.unit('N/mm')})", xlim=(0, None), ylim=(0, None))
+    legend(figure, given.airs(few(list(curves))))
     yield Drawn("vertical", "vertical", "Load over the deflection, and radial stiffness, the slope of that curve, over "
-                "the load, by pressure of the air.", figure)
+                f"the load{by_air(list(curves))}.", figure)
 
 
 def _cornering(given: Given) -> Iterator[Drawn]:
@@ -44,9 +44,9 @@ def _cornering(given: Given) -> Iterator[Drawn]:
         one = _sorted(chosen(found, np.isclose(found["pressure"], pressure, rtol=1e-6)))
         curve(left, k, 1e-3 * one["load"], 1e-3 * np.radians(one["stiffness"]))
         curve(right, k, 1e-3 * one["load"], 1e3 * one["trail"])
-    left.set(xlabel="load $F_z$ (kN)", ylabel=r"cornering stiffness $-dF_y/d\alpha$ (kN/°)", xlim=(0, None), ylim=(0, None))
-    right.set(xlabel="load $F_z$ (kN)", ylabel="pneumatic trail (mm)", xlim=(0, None), ylim=(0, None))
-    legend(figure, [said("pressure", pressure) for pressure in pressures])
+    left.set(xlabel=given.load_label, ylabel=r"cornering stiffness $-dF_y/d\alpha$ (kN/°)", xlim=(0, None), ylim=(0, None))
+    right.set(xlabel=given.load_label, ylabel="pneumatic trail (mm)", xlim=(0, None), ylim=(0, None))
+    legend(figure, given.airs(pressures))
     yield Drawn("lateral", "cornering-stiffness", "Cornering stiffness and pneumatic trail at small slip angles over the "
                 f"load, by pressure of the air. {AXES}.", figure)
 
@@ -60,10 +60,10 @@ def _slip(given: Given) -> Iterator[Drawn]:
     for k, pressure in enumerate(pressures):
         one = _sorted(chosen(found, np.isclose(found["pressure"], pressure, rtol=1e-6)))
         curve(ax, k, 1e-3 * one["load"], 1e-5 * one["stiffness"])
-    ax.set(xlabel="load $F_z$ (kN)", ylabel=r"slip stiffness $dF_x/d\kappa$ (kN/%)", xlim=(0, None), ylim=(0, None))
-    legend(figure, [said("pressure", pressure) for pressure in pressures])
-    yield Drawn("longitudinal", "slip-stiffness", "Slip stiffness at small slip ratios over the load, by pressure of the "
-                f"air. {AXES}.", figure)
+    ax.set(xlabel=given.load_label, ylabel=rf"slip stiffness $dF_x/d\kappa$ ({given.unit('kN/%')})", xlim=(0, None), ylim=(0, None))
+    legend(figure, given.airs(pressures))
+    yield Drawn("longitudinal", "slip-stiffness", "Slip stiffness at small slip ratios over the load"
+                f"{by_air(pressures)}. {AXES}.", figure)
 
 
 def _sorted(found: Columns) -> Columns:

@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""rondo rig of wheels in the plane: the tests they do, in newtons with a width and per metre of width without one."""
+import json
+import types
+
+import matplotlib.pyplot as plt
+import numpy as np
+import pytest
+from rig_wheels import files, rig
+
+import rondo
+from rondo import files as exchanged
+from rondo.data.errors import InputError
+from rondo.rig import figures, slip_step
+from rondo.rig.keys import PLANE, SPACE
+from rondo.rig.plane import LEFT_OUT
+from rondo.rig.settings import read_settings
+from rondo.rig.tyre import read_tyre
+
+WIDTH, LOAD = 0.1, 4000.0  # m, N
+# Without lateral contraction a wheel with a width is the plane one, times the width.
+PLANE_WHEEL = """schema = 1
+title = "Plane wheel"
+[disk]
+outer_radius = 0.30
+inner_radius = 0.20
+[disk.mesh]
+radial = 2
+circumferential = 90
+[material]
+youngs_modulus = 5.0e6
+poissons_ratio = 0.0
+density = 1100.0
+[damping]
+stiffness = 2.0e-5
+[motion]
+angular_velocity = 40.0
+[ground]
+profile = "flat"
+friction = 0.8
+[analysis]
+kind = "steady-rolling"
+load = 4.0e4
+torque = 0.0
+"""
+SPACE_WHEEL = PLANE_WHEEL.replace("inner_radius = 0.20", f"inner_radius = 0.20\nwidth = {WIDTH}").replace(
+    "radial = 2", "radial = 2\naxial = 1").replace("load = 4.0e4", f"load = {LOAD}\nsamples_per_sector = 4")
+RIG = f"schema = 1\nwidth = {WIDTH}\nloads = [2000.0, 4000.0]\n[cleat]\nmodes = 20\n[road]\nlength = 2.0\nmodes = 20\n"
+SAME = "schema = 1\nsectors = 90\nsamples_per_sector = 4\nloads = [2000.0, 4000.0]\n[relaxation]\nslip_ratio_step = 0.005\n"
+PER_METRE = "schema = 1\nloads = [2.0e4, 4.0e4]\n"
+BOTH = "vertical,longitudinal,relaxation"
+
+
+@pytest.fixture(scope="module")
+def with_width(tmp_path_factory):
+    """All tests."""
+    case, settings = files(tmp_path_factory.mktemp("plane"), PLANE_WHEEL, RIG)
+    assert "points failed" not in rig(case, "--rig", settings, "--quick", "-o", case.parent / "rig").stderr
+    return rondo.open_rig(case.parent / "rig")
+
+
+@pytest.fixture(scope="module")
+def per_metre(tmp_path_factory):
+    case, settings = files(tmp_path_factory.mktemp("per-metre"), PLANE_WHEEL, PER_METRE)
+    said = rig(case, "--rig", settings, "--quick", "--tests", "vertical,longitudinal", "-o", case.parent / "rig").stderr
+    assert "no tyre.tir" in said and "per metre of width: give its width in the rig file" in said
+    return rondo.open_rig(case.parent / "rig")
+
+
+def columns(found, test, *names):
+    return [found.tests[test].table[name] for name in names]
+
+
+def test_all_tests_that_make_sense_are_done(with_width):
+    statuses = {name: test.info["status"] for name, test in with_width.tests.items()}
+    assert {name for name, status in statuses.items() if status == "left out"} == {"lateral", "combined"} == set(LEFT_OUT)
+    assert set(statuses.values()) == {"left out", "finished"} and len(statuses) == 10
+    for name in ("report.html", "tyre.tir", "longitudinal.tdx", "figures/footprint.png", "runs/vertical/study.toml"):
+        assert (with_width.directory / name).is_file(), name
+    assert not (with_width.directory / "lateral.csv").exists()
+
+
+def test_the_page_says_what_its_forces_are(with_width, per_metre):
+    page = (with_width.directory / "report.html").read_text()
+    assert "plane strain, times a width of 0.1 m" in page and "a plane wheel has no slip angle" in page
+    page = (per_metre.directory / "report.html").read_text()
+    assert "forces and moments are per metre of width" in page and "TYDEX files and tyre.tir are not written" in page
+    assert "kN/m" in page and "N/mm per m" in page and "Trends of tyres" not in page
+
+
+def test_forces_are_those_of_the_width(with_width, per_metre):
+    newtons, metres = ((*columns(with_width, "longitudinal", "load", "Fx", "Fz", "My"),
+                        *columns(with_width, "longitudinal", "height", "slip_ratio")),
+                       (*columns(per_metre, "longitudinal", "load_per_m", "Fx_per_m", "Fz_per_m", "My_per_m"),
+                        *columns(per_metre, "longitudinal", "height", "slip_ratio")))
+    for mine, theirs, factor in zip(newtons, metres, (WIDTH,) * 4 + (1.0, 1.0)):
+        assert mine == pytest.approx(factor * theirs, rel=1e-9)
+    stiffness = [found.figures["vertical"]["radial_stiffness"][0]["value"] for found in (with_width, per_metre)]
+    assert stiffness[0] == pytest.approx(WIDTH * stiffness[1], rel=1e-9)
+
+
+def test_units_are_told(with_width, per_metre):
+    assert with_width.width == WIDTH and not with_width.per_metre and with_width.plane == "strain"
+    assert per_metre.per_metre and "Fx" not in per_metre.tests["longitudinal"].table
+    units = [json.loads((found.directory / "rig.json").read_text())["units"] for found in (with_width, per_metre)]
+    assert units[0]["columns"]["Fx"] == "N" and units[0]["figures"]["radial_stiffness"] == "N/m"
+    assert units[1]["columns"]["Fx_per_m"] == "N/m" and units[1]["columns"]["My_per_m"] == "N m/m"
+    assert units[1]["figures"] == {"radial_stiffness": "N/m per m", "effective_radius": "m", "slip_stiffness": "N/m"}
+    drawn = {one.name: [ax.get_ylabel() for ax in one.figure.axes] for one in figures.figures_of(per_metre)}
+    plt.close("all")
+    assert "(kN/m)" in drawn["longitudinal-load"][0] and "(N/mm per m)" in drawn["vertical"][1]
+    assert not list(per_metre.directory.glob("*.tdx")) and not (per_metre.directory / "tyre.tir").exists()
+
+
+def test_runs_in_time_have_the_width(with_width):
+    """The wheel stands at the height of its load. The figure is of the same forces."""
+    for test in ("cleat", "road"):
+        assert columns(with_width, test, "mean_Fz")[0] == pytest.approx(LOAD, rel=0.03)
+    drawn = {one.name: one.figure for one in figures.figures_of(with_width)}
+    up = drawn["cleat"].axes[1].lines[0].get_ydata()
+    plt.close("all")
+    assert up[:10].mean() == pytest.approx(1e-3 * LOAD, rel=0.03)
+
+
+def test_a_wheel_with_a_width_is_the_same(with_width, tmp_path):
+    """In three dimensions, without lateral contraction. Its step of the slip ratio is another algorithm: without steps in
+    time and without vibrations."""
+    case, settings = files(tmp_path, SPACE_WHEEL, SAME)
+    rig(case, "--rig", settings, "--quick", "--tests", BOTH, "-o", tmp_path / "rig")
+    solid = rondo.open_rig(tmp_path / "rig")
+    for name, bound in (("Fx", 3e-3), ("deflection", 1e-3), ("contact_length", 2e-3), ("mean_pressure", 2e-3)):
+        mine, theirs = columns(with_width, "longitudinal", name) + columns(solid, "longitudinal", name)
+        assert np.abs(mine - theirs).max() < bound * np.abs(theirs).max(), name
+    steps = columns(solid, "relaxation", "step")[0] == "slip-ratio"
+    assert columns(with_width, "relaxation", "relaxation_length_fit")[0] == pytest.approx(
+        columns(solid, "relaxation", "relaxation_length_fit")[0][steps], rel=0.1)
+
+
+def test_files_have_what_a_plane_wheel_has(with_width):
+    tydex = exchanged.read_tydex(with_width.directory / "longitudinal.tdx")
+    assert tydex["FX"] == pytest.approx(columns(with_width, "longitudinal", "Fx")[0], rel=1e-5)
+    assert not {"FYW", "MXW", "MZW"} & set(tydex.channels)
+    assert "times a width of 0.1 m" in (with_width.directory / "longitudinal.tdx").read_text().replace("\n", " ")
+    tir = exchanged.read_tir(with_width.directory / "tyre.tir")
+    assert tir.number("USE_MODE") == 1 and tir.number("WIDTH") == WIDTH and "PCY1" not in tir
+    assert tir.number("Q_RA2") != 0.0 and "Q_RB1" not in tir
+    assert "no lateral force" in " ".join(line.lstrip("! ") for line in tir.comments)
+    stiffness = [one["value"] for one in with_width.figures["vertical"]["radial_stiffness"] if one["load"] == LOAD]
+    assert tir.number("VERTICAL_STIFFNESS") == pytest.approx(stiffness[0], rel=0.05)
+    fx, slip, load = columns(with_width, "longitudinal", "Fx", "slip_ratio", "load")
+    found = rondo.magic_formula.evaluate(tir, slip_ratio=slip, load=load)
+    assert np.abs(found.Fx - fx).max() < 0.05 * np.abs(fx).max() and (found.Fy == 0).all()
+
+
+def test_an_fmu_that_fails_is_told_at_the_end(tmp_path):
+    """There is a folder in the place of its file."""
+    case, settings = files(tmp_path, PLANE_WHEEL, RIG)
+    (tmp_path / "rig" / "runs" / "fmu" / "results.fmu" / "folder").mkdir(parents=True)
+    said = rig(case, "--rig", settings, "--quick", "--tests", "vertical", "--fmu", "-o", tmp_path / "rig", code=3).stderr
+    assert "tyre.fmu: failed: " in said and "results.fmu" in said
+    told = json.loads((tmp_path / "rig" / "rig.json").read_text())["fmu"]
+    assert told["status"] == "failed" and told["reason"] in (tmp_path / "rig" / "report.html").read_text()
+    assert not (tmp_path / "rig" / "tyre.fmu").exists() and (tmp_path / "rig" / "figures" / "vertical.png").exists()
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (("--tests", "lateral"), "a plane wheel has no slip angle"),
+    (("--against", "forces.csv"), "measurements are in newtons, and the forces of this plane wheel are per metre of width")])
+def test_what_a_plane_wheel_cannot_do(tmp_path, monkeypatch, arguments, words):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "forces.csv").write_text("LONGSLIP,FX,FZW\n-0.1,-3000,4000\n0.1,3000,4000\n")
+    case, settings = files(tmp_path, PLANE_WHEEL, PER_METRE)
+    assert words in rig(case, "--rig", settings, *arguments, "-o", tmp_path / "rig", code=2).stderr
+    assert not (tmp_path / "rig" / "rig.json").exists()
+
+
+@pytest.mark.parametrize("old, new, words", [
+    ("youngs_modulus = 5.0e6\n", 'model = "neo-hooke"\nshear_modulus = 2.0e6\n', "youngs_modulus = 4e+06, 2 mu (1 + nu)"),
+    ("[disk]", '[mesh]\nfile = "a.msh"\n[disk]', "rondo sweep varies load, slip and speed of runs in time"),
+    ("inner_radius", 'rim = "free"\ninner_radius', 'disk.rim = "free"'),
+    ("[ground]", "[load]\npressure = 1e5\n[ground]", "[load]: the rig tests a plane wheel without it"),
+    ("[ground]", "[inflation]\npressure = 1e5\n[ground]", "air is of wheels in three dimensions"),
+    ("circumferential = 90\n", "", "disk.mesh.circumferential: is missing")])
+def test_cases_that_are_refused(tmp_path, old, new, words):
+    case, _ = files(tmp_path, PLANE_WHEEL.replace(old, new, 1).replace("poissons_ratio = 0.0", "poissons_ratio = 0"))
+    with pytest.raises(InputError) as error:
+        read_tyre(case)
+    assert words in str(error.value)
+
+
+@pytest.mark.parametrize("wheels, text, words", [
+    (PLANE, "load = 1.0\n", "load = 1.0 (allowed: a number in N/m, >= 20)"),
+    (PLANE, "width = 0.2\nload = 1.0\n", "load = 1.0 (allowed: a number in N, >= 20)"),
+    (PLANE, "width = 200\n", "width = 200 (allowed: a number in m, >= 0.001 and <= 5)"),
+    (PLANE, "cambers_deg = [3.0]\n", "cambers_deg: is of wheels in three dimensions"),
+    (PLANE, "[lateral]\nloads = [4000.0]\n", "[lateral]: is of wheels in three dimensions, and this one is plane"),
+    (SPACE, "width = 0.2\n", "width: is of plane wheels (allowed: leave it out; this wheel has its own width"),
+    (SPACE, "[relaxation]\nmass_damping = 9.0\n", "relaxation.mass_damping: is of plane wheels")])
+def test_rig_files_that_are_refused(tmp_path, wheels, text, words):
+    (tmp_path / "rig.toml").write_text(f"schema = 1\n{text}")
+    with pytest.raises(InputError) as error:
+        read_settings(tmp_path / "rig.toml", wheels)
+    assert words in str(error.value)
+
+
+def test_a_tread_keeps_its_pitches(tmp_path):
+    tread = "[disk.mesh]\nradial = 2\n[disk.tread]\npitches = 40\ndepth = 0.01\nland_columns = 2\ngroove_columns = 1\nlayers = 1\n"
+    case, settings = files(tmp_path, PLANE_WHEEL.replace("[disk.mesh]\nradial = 2\ncircumferential = 90\n", tread), RIG)
+    rig(case, "--rig", settings, "--quick", "--tests", "footprint", "-o", tmp_path / "rig")
+    found = rondo.open_rig(tmp_path / "rig")
+    assert found.settings["sectors"] == 40
+    length, pressure = columns(found, "footprint", "contact_length", "mean_pressure")
+    assert length * pressure * WIDTH == pytest.approx(LOAD, rel=1e-6)
+    settings.write_text(RIG.replace("schema = 1", "schema = 1\nsectors = 60"))
+    assert "leave sectors out" in rig(case, "--rig", settings, "--dry-run", code=2).stderr
+
+
+def of_history(length, settles=True):
+    """A run whose force follows a step exponentially, with a ripple of each sector that passes."""
+    case = {"disk": {"mesh": {"circumferential": 90}}, "motion": {"angular_velocity": 40.0, "speed": [[0.0, 12.0], [0.1, 12.0], [0.1001, 11.9]]}}
+    pass_s = 2 * np.pi / 40 / 90
+    time = np.arange(0.0, 0.3 if settles else 0.11, pass_s / 40)
+    rolled = 11.9 * np.maximum(time - 0.1, 0.0)
+    force = 50.0 + 100.0 * (1 - np.exp(-rolled / length)) + 300.0 * np.cos(2 * np.pi * time / pass_s)
+    return types.SimpleNamespace(case=case, history={"time_s": time, "force_x": force})
+
+
+def test_lengths_of_a_step():
+    step = slip_step.slip_step_of(of_history(0.15))
+    assert step.fitted == pytest.approx(0.15, rel=0.01) and step.length == pytest.approx(0.15, rel=0.02)
+    assert (step.before, step.after) == (pytest.approx(50.0, abs=0.5), pytest.approx(150.0, abs=0.5))
+    with pytest.raises(rondo.Error, match="has not settled"):
+        slip_step.slip_step_of(of_history(0.15, settles=False))
+
+
+def test_steps_are_a_whole_number_in_a_pass():
+    for stable in (1e-3, 2e-4, 3e-5, 1e-6):
+        step, interval = slip_step.steps_of(1.7e-3, stable)
+        for part, whole in ((step, interval), (interval, 1.7e-3)):
+            assert whole / part == pytest.approx(round(whole / part), rel=1e-9)
+        assert step <= stable / slip_step.FINER * (1 + 1e-9) and interval <= 1.7e-3 / slip_step.ROWS * (1 + 1e-9)
