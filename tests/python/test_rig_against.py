@@ -8,6 +8,7 @@ import rigs
 
 import rondo
 from rondo import files, magic_formula
+from rondo.rig import report
 from rondo.rig.against import compare, rows_near
 
 # A file of another machine: its channels, and what they are here.
@@ -49,6 +50,18 @@ def test_a_factor_is_found_in_a_tydex_file(rig, tmp_path):
     assert found["Fy"].rms == pytest.approx(rms, rel=1e-3) and found["Fy"].rows == 195 and found["Fy"].beyond == 0
     assert found["Fy"].of_largest == pytest.approx(rms / np.abs(columns["FYW"]).max(), rel=1e-3)
     assert found["Mz"].of_largest < 1e-4 and found["Fy"].unit == "N"
+
+
+@pytest.mark.parametrize("test, channel, words", [
+    ("lateral", "MZW", "MZW has the other sign than the rig at 195 states (correlation -1.00)"),
+    ("combined", "MZW", "combined: MZW has the other sign"), ("longitudinal", "FX", "a force that brakes is < 0")])
+def test_a_sign_of_other_axes_is_told(rig, tmp_path, test, channel, words):
+    """In the comparison, in the report and in the summary for rig.json; a file in our axes has no warning."""
+    assert compare(rig, write_csv(tmp_path / "ours.csv", measured(test))).warnings == ()
+    found = compare(rig, write_csv(tmp_path / "theirs.csv", measured(test, **{channel: -0.8})))
+    text, = found.warnings
+    assert words in text and "rondo.axes.convert" in text and found.summary["warnings"] == [text]
+    assert "has the other sign than the rig" in report.write(rig, tmp_path / "report.html", found).read_text()
 
 
 def test_all_tests_that_a_file_holds(rig, tmp_path):

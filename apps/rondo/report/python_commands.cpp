@@ -33,7 +33,7 @@ constexpr PythonCommand commands[] = {
     {"validate", "Compares reduced runs with the full runs that they predict"},
     {"validation", "Draws the errors of reduced runs"},
     {"paper", "Runs the study of the paper: our results against those expected"},
-    {"rig", "Tests a wheel in three dimensions on a tyre test rig: tables, tyre.tir, a report"},
+    {"rig", "Tests a wheel on a tyre test rig: tables, tyre.tir, a report"},
 };
 
 }  // namespace

@@ -16,7 +16,7 @@ from ..data.errors import FileError, InputError
 from .against_points import Axis, Way, interpolated
 from .plane import WITHOUT_WIDTH
 from .points import points
-from .against_reading import CHANNEL_OF, UNITS, Measured, read_measured, told
+from .against_reading import ALIKE, CHANNEL_OF, UNITS, Measured, read_measured, told
 
 if TYPE_CHECKING:
     from ..data.rig import Rig
@@ -36,6 +36,12 @@ CHANNELS = {"vertical": ("Fz",), "longitudinal": ("Fx", "My"), "lateral": ("Fy",
             "combined": ("Fx", "Fy", "Mx", "Mz"), "rolling-resistance": ("Fx", "My")}
 
 
+FEWEST = 4  # states that tell a sign
+_MOMENT = "a moment that turns the wheel back into its direction of travel is > 0 at a slip angle > 0"
+# Channels whose sign is compared with that of the rig, with what it has to be. Those of other channels are refused when the
+# file is read, or may differ between two tyres.
+SIGNED = {"lateral": {"Mz": _MOMENT}, "combined": {"Mz": _MOMENT},
+          "longitudinal": {"Fx": "a force that brakes is < 0 at a slip ratio < 0"}}
 COLUMNS = (*UNITS, "load")  # of the points of a rig
 
 
@@ -60,6 +66,7 @@ class Comparison:
     path: pathlib.Path
     measured: dict[str, dict[str, Array]]  # by test: the columns of its rows in SI and ISO-W
     differences: tuple[Difference, ...]
+    warnings: tuple[str, ...] = ()  # of channels whose sign is likely that of other axes
 
     @property
     def lines(self) -> list[str]:
@@ -71,7 +78,8 @@ class Comparison:
     @property
     def summary(self) -> dict[str, Any]:
         """For rig.json."""
-        return {"file": str(self.path), "differences": [asdict(one) for one in self.differences]}
+        return {"file": str(self.path), "differences": [asdict(one) for one in self.differences],
+                "warnings": list(self.warnings)}
 
     def write(self, path: str | os.PathLike[str]) -> pathlib.Path:
         """A table of the differences as CSV."""
@@ -98,6 +106,7 @@ def compare(rig: Rig, file: str | os.PathLike[str]) -> Comparison:
     measured = read_measured(file)
     shown: dict[str, dict[str, Array]] = {}
     differences: list[Difference] = []
+    warnings: list[str] = []
     for test, way in WAYS.items():
         ours = points(rig, test, COLUMNS)
         rows = rows_of_test(test, measured)
@@ -110,9 +119,11 @@ def compare(rig: Rig, file: str | os.PathLike[str]) -> Comparison:
             continue
         shown[test] = states
         differences += [one for name in channels if (one := _difference(test, name, way, ours, states)) is not None]
+        warnings += [text for name in SIGNED.get(test, ()) if name in channels
+                     if (text := _warning_of_sign(measured, test, name, way, ours, states))]
     if not differences:
         raise InputError(_nothing_in_common(rig, measured, shown))
-    return Comparison(measured.path, shown, tuple(differences))
+    return Comparison(measured.path, shown, tuple(differences), tuple(warnings))
 
 
 def rows_of_test(test: str, measured: Measured) -> Mask:
@@ -147,16 +158,36 @@ def rows_near(comparison: Comparison | None, test: str, settings: Mapping[str, f
 def _difference(test: str, channel: str, way: Way, mine: dict[str, Array], states: dict[str, Array]
                 ) -> Difference | None:
     """None: no state is within the points."""
-    there = np.isfinite(states[channel])
-    ours = interpolated(mine, channel, way, {name: column[there] for name, column in states.items()})
-    apart = ours - states[channel][there]
+    theirs, ours = _beside(channel, way, mine, states)
+    apart = ours - theirs
     inside = np.isfinite(apart)
     if not inside.any():
         return None
-    largest = float(np.abs(states[channel][there][inside]).max())
+    largest = float(np.abs(theirs[inside]).max())
     rms = float(np.sqrt(np.mean(apart[inside] ** 2)))
     return Difference(test, channel, UNITS[channel], rms, float(apart[inside].mean()), rms / largest if largest else np.inf,
                       int(inside.sum()), int((~inside).sum()))
+
+
+def _beside(channel: str, way: Way, mine: dict[str, Array], states: dict[str, Array]) -> tuple[Array, Array]:
+    """A measured channel where it has numbers, and the rig at these states; NaN: beyond its points."""
+    there = np.isfinite(states[channel])
+    return states[channel][there], interpolated(mine, channel, way, {name: column[there] for name, column in states.items()})
+
+
+def _warning_of_sign(measured: Measured, test: str, channel: str, way: Way, mine: dict[str, Array],
+                     states: dict[str, Array]) -> str:
+    """"": the channel goes with that of the rig, or these states do not tell."""
+    pair = np.stack(_beside(channel, way, mine, states))
+    pair = pair[:, np.isfinite(pair).all(axis=0)]
+    if pair.shape[1] < FEWEST or pair.std(axis=1).min() == 0:
+        return ""
+    correlation = float(np.corrcoef(pair)[0, 1])
+    if correlation > -ALIKE:
+        return ""
+    return (f"{measured.path}: {test}: {_channel(channel)} has the other sign than the rig at {pair.shape[1]} states (correlation "
+            f"{correlation:.2f}): in the axes W of TYDEX, ISO 8855, {SIGNED[test][channel]}. If the file has other axes, convert "
+            "it with rondo.axes.convert (docs/conventions.md); the differences here are as the file has it")
 
 
 def _nothing_in_common(rig: Rig, measured: Measured, shown: dict[str, dict[str, Array]]) -> str:

@@ -31,6 +31,8 @@ def write_pages(directory: pathlib.Path, measured: pathlib.Path | None = None) -
         try:
             against = compare(rig, measured)
             files.append(_write_comparison(rig, against))
+            for text in against.warnings:
+                print(f"rondo: warning: --against: {text}", file=sys.stderr)
         except Error as reason:
             trouble = reason
     draw(rig, directory / "figures", against)

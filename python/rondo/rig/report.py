@@ -161,7 +161,7 @@ def _fit(rig: Rig) -> str:
 def _against(against: Comparison) -> str:
     rows = [(one.test, one.channel, f"{number(one.rms)} {one.unit}", f"{number(100 * one.of_largest, 3)} %",
              f"{number(one.mean)} {one.unit}", one.rows, one.beyond) for one in against.differences]
-    return paragraph(f"The rig less the measurements of {escaped(against.path.name)}, over the states that both have.") + \
+    return "".join(map(note, against.warnings)) + paragraph(f"The rig less the measurements of {escaped(against.path.name)}, over the states that both have.") + \
         table(("test", "channel", "rms", "over the largest measured", "mean", "rows", "beyond the points of the rig"), rows,
               "Differences between the rig and the measurements")
 
