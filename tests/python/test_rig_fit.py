@@ -8,7 +8,9 @@ import rigs
 
 import rondo
 from rondo import files, magic_formula
+from rondo.data.tir import tir
 from rondo.rig import figures, fit
+from rondo.rig.fit_relaxation import with_relaxation
 
 pytest.importorskip("scipy")
 
@@ -80,6 +82,38 @@ def test_vertical_stiffness_and_its_pressure(whole):
     slope = np.sqrt(rigs.SOFT ** 2 + 4 * rigs.STIFF * rigs.LOAD)
     assert tir.number("VERTICAL_STIFFNESS") == pytest.approx(slope, rel=1e-6)
     assert tir.number("PFZ1") == pytest.approx(rigs.BY_PRESSURE, rel=1e-6)
+
+
+@pytest.mark.parametrize("loads, met", [((2000.0, 3000.0, 4000.0, 6000.0), 3), ((2000.0, 6000.0), 2), ((4000.0,), 1)])
+def test_relaxation_lengths_are_those_of_the_file(whole, tmp_path, loads, met):
+    """sigma = K / C of the file, C a parabola over the load, as far as the loads tell it."""
+    folder, _, _ = whole
+    shares = [1.0e5, 3.0e4, -1.0e4][:met]
+    change = np.array(loads) / rigs.LOAD - 1
+
+    def rows(stiffness, step):
+        tyre = np.polynomial.polynomial.polyval(change, shares)
+        return [{"load": load, "pressure": rigs.PRESSURE, "step": step, "relaxation_length_63": 9.0,
+                 "relaxation_length_fit": value / one} for load, value, one in zip(loads, stiffness, tyre)]
+
+    made = files.read_tir(folder / "tyre.tir")
+    forces = rondo.magic_formula.evaluate(made, load=np.array(loads))
+    tests = {"vertical": rigs.vertical(), "relaxation": rows(forces.slip_stiffness, "slip-ratio") +
+             rows(-forces.cornering_stiffness, "slip-angle")}
+    found, lines = with_relaxation(made, rondo.open_rig(rigs.write(tmp_path / "rig", tests)))
+    for keys in (("LONGITUDINAL_STIFFNESS", "PCFX1", "PCFX2"), ("LATERAL_STIFFNESS", "PCFY1", "PCFY2")):
+        wanted = [shares[0], *(share / shares[0] for share in shares[1:])]
+        assert [found.number(key) for key in keys[:met]] == pytest.approx(wanted, rel=1e-6)
+        assert not any(key in found for key in keys[met:])
+    assert len(lines) == 2 and all(f"at {len(loads)} load" in line for line in lines)
+
+
+def test_no_relaxation_length_without_a_stiffness(whole, tmp_path):
+    """A file of a wheel in the plane has no cornering stiffness."""
+    row = {"load": 4000.0, "pressure": rigs.PRESSURE, "step": "slip-angle", "relaxation_length_fit": 0.4}
+    rig = rondo.open_rig(rigs.write(tmp_path / "rig", {"relaxation": [row]}))
+    found, lines = with_relaxation(tir({"FNOMIN": 4000.0, "NOMPRES": rigs.PRESSURE}, 61), rig)
+    assert "LATERAL_STIFFNESS" not in found and "no cornering stiffness" in lines[0]
 
 
 def test_the_file_says_how_good_it_is(whole):

@@ -147,6 +147,8 @@ def test_files_have_what_a_plane_wheel_has(with_width):
     assert "no lateral force" in " ".join(line.lstrip("! ") for line in tir.comments)
     stiffness = [one["value"] for one in with_width.figures["vertical"]["radial_stiffness"] if one["load"] == LOAD]
     assert tir.number("VERTICAL_STIFFNESS") == pytest.approx(stiffness[0], rel=0.05)
+    length, = columns(with_width, "relaxation", "relaxation_length_fit")[0]
+    assert rondo.magic_formula.evaluate(tir, load=LOAD).slip_stiffness / tir.number("LONGITUDINAL_STIFFNESS") == pytest.approx(length)
     fx, slip, load = columns(with_width, "longitudinal", "Fx", "slip_ratio", "load")
     found = rondo.magic_formula.evaluate(tir, slip_ratio=slip, load=load)
     assert np.abs(found.Fx - fx).max() < 0.05 * np.abs(fx).max() and (found.Fy == 0).all()

@@ -14,6 +14,7 @@ import numpy as np
 from .. import magic_formula
 from ..data.errors import Error, InputError
 from ..data.tir import Tir, tir, write_tir as write_file
+from .fit_relaxation import with_relaxation
 from .fit_rows import CHANNELS_OF, FORCES, INPUTS, Rows, rows_of
 from .fit_structure import sizes_of, structure_of
 from .plane import LEFT_OUT, NO_TIR, ONLY_PLANE, USE_MODE, sentence
@@ -74,10 +75,10 @@ def fit_rig(rig: Rig) -> Fitted:
     plane = {"USE_MODE": USE_MODE, "WIDTH": float(rig.width or 0.0)} if rig.plane else {}
     start = tir({**known, **plane, **structure_of(rig, known | plane)}, FITTYP)
     found, missing = _fit(start, rows)
-    made = found.tir.with_values(_ranges(rows))
+    made, lengths = with_relaxation(found.tir.with_values(_ranges(rows)), rig)
     left = {**missing, **found.left}
     residuals = residuals_of(made, rows)
-    return Fitted(_commented(made, rig, residuals, left, found.at_bounds), residuals, left, found.at_bounds)
+    return Fitted(_commented(made, rig, residuals, left, found.at_bounds, lengths), residuals, left, found.at_bounds)
 
 
 def why_none(rig: Rig, rows: Rows) -> str:
@@ -155,7 +156,7 @@ def _ranges(rows: Rows) -> dict[str, float]:
 
 
 def _commented(made: Tir, rig: Rig, residuals: Mapping[str, Residual], left: Mapping[str, str],
-               at_bounds: Sequence[str]) -> Tir:
+               at_bounds: Sequence[str], lengths: Sequence[str]) -> Tir:
     """With what a reader of the file has to know at its top."""
     rows = rows_of(rig)
     counts = ", ".join(f"{test} {int((rows.tests == test).sum())}" for test in dict.fromkeys(rows.tests.tolist()))
@@ -163,7 +164,8 @@ def _commented(made: Tir, rig: Rig, residuals: Mapping[str, Residual], left: Map
              "Axes and signs: ISO 8855 (TYDEX W). SI units; angles in rad.",
              *((sentence(rig.plane, rig.width), ONLY_PLANE) if rig.plane else ()),
              *(f"{name}: rms {one.rms:.4g} {one.unit}, {100 * one.of_largest:.3g} % of the largest of {one.rows} points; "
-               f"largest difference {one.largest:.4g} {one.unit}" for name, one in residuals.items())]
+               f"largest difference {one.largest:.4g} {one.unit}" for name, one in residuals.items()),
+             *lengths]
     reasons: dict[str, list[str]] = {}
     for key, why in left.items():
         reasons.setdefault(why, []).append(key)
