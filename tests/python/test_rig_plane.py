@@ -11,9 +11,9 @@ from rig_wheels import files, rig
 import rondo
 from rondo import files as exchanged
 from rondo.data.errors import InputError
-from rondo.rig import figures, slip_step
+from rondo.rig import figures
 from rondo.rig.keys import PLANE, SPACE
-from rondo.rig.plane import LEFT_OUT
+from rondo.rig.plane import LEFT_OUT, slip_step
 from rondo.rig.settings import read_settings
 from rondo.rig.tyre import read_tyre
 
@@ -85,7 +85,7 @@ def test_the_page_says_what_its_forces_are(with_width, per_metre):
     assert "plane strain, times a width of 0.1 m" in page and "a plane wheel has no slip angle" in page
     page = (per_metre.directory / "report.html").read_text()
     assert "forces and moments are per metre of width" in page and "TYDEX files and tyre.tir are not written" in page
-    assert "kN/m" in page and "N/mm per m" in page and "Trends of tyres" not in page
+    assert "kN/m" in page and "N/mm per m" in page and "Trends of tyres" not in page and "None" not in page
 
 
 def test_forces_are_those_of_the_width(with_width, per_metre):
@@ -203,6 +203,13 @@ def test_rig_files_that_are_refused(tmp_path, wheels, text, words):
     with pytest.raises(InputError) as error:
         read_settings(tmp_path / "rig.toml", wheels)
     assert words in str(error.value)
+
+
+def test_a_step_that_does_not_settle_is_a_row(tmp_path):
+    case, settings = files(tmp_path, PLANE_WHEEL, RIG + "[relaxation]\ndistance = 0.2\n")
+    rig(case, "--rig", settings, "--quick", "--tests", "relaxation", "-o", tmp_path / "rig", code=3)
+    table = rondo.open_rig(tmp_path / "rig").tests["relaxation"].table
+    assert list(table["status"]) == ["failed"] and table["reason"][0].startswith("force_x has not settled after the step: roll farther")
 
 
 def test_a_tread_keeps_its_pitches(tmp_path):

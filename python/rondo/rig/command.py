@@ -10,20 +10,19 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
 from ..data.errors import Error, InputError
 from ..data.files import read_json
 from ..studies.jobs import INTERRUPTED, NUMERICAL, Job, Stop, processors, run_jobs
 from ..studies.lock import Lock
-from ..studies.program import Program, find_program
-from ..studies.progress import Progress, readable_time
+from ..studies.program import find_program
+from ..studies.progress import Progress
 from .against_reading import read_measured
 from .blocks import MADE_OF, RESULTS, SWEEP, Bench, Block
 from .defaults import nominal, with_defaults
 from .findings import find
 from .keys import TOP
 from .plane import LEFT_OUT, NOTES, WITHOUT_WIDTH, fmu_note
+from .planning import cost_of, plan_text
 from .record import FORMAT, replace_text, write_channels, write_json, write_table
 from .rows import DONE, FAILED, free_radius, rows_of_block
 from .settings import Settings, is_per_metre, read_settings, settings_text
@@ -36,9 +35,6 @@ from .units import units_of
 
 GUESS = 0.3      # m: the radius by which a speed of a rig file is a spin, until the reference tells the radius
 FIRST = "vertical"  # the test that others begin with
-# Seconds of a block beside its points, and of a point, in those of a point of the reference.
-SETUP, STEADY, STEP, IN_TIME, MODES = 12.0, 3.0, 90.0, 80.0, 60.0
-PAGES = 35.0  # s, of fit, figures and report
 
 
 @dataclass(frozen=True)
@@ -60,7 +56,7 @@ def plan(request: Request) -> str:
     with tempfile.TemporaryDirectory() as folder:
         rig = Rig(replace(request, directory=pathlib.Path(folder)))
         rig.begin(Stop())
-        return rig.plan_text()
+        return plan_text(rig.bench, rig.wanted(), rig.left_out, rig.point_s, rig.disk, request.jobs or processors())
 
 
 def defaults_text(request: Request) -> str:
@@ -203,7 +199,7 @@ class Rig:
         self.disk = int(sum(path.stat().st_size for path in (self.runs / block.name / RESULTS).iterdir()))
         settings = with_defaults(self.tyre, self.given, self.request.quick, radius)
         self.bench = Bench(self.tyre, settings, self.bench.mesh, radius)
-        if self.tyre.is_plane and "relaxation" in self._with_first():
+        if self.tyre.is_plane and "relaxation" in self.wanted():
             self._find_stable_step(stop)
 
     def _find_stable_step(self, stop: Stop) -> None:
@@ -216,7 +212,7 @@ class Rig:
             self.bench = replace(self.bench, stable_step=float(info["step"]))
 
     def do_tests(self, stop: Stop) -> None:
-        wanted = self._with_first()
+        wanted = self.wanted()
         for tests in ([FIRST] if FIRST in wanted else [], [name for name in wanted if name != FIRST]):
             blocks = []
             for name in tests:
@@ -243,7 +239,7 @@ class Rig:
                 found[speed] = (float(state["height"]), float(state["speed"]) / self.bench.spin(speed))
         return found
 
-    def _with_first(self) -> list[str]:
+    def wanted(self) -> list[str]:
         """The tests asked for, and that with which they begin."""
         asked = [name for name in TESTS if name in (self.request.tests or TESTS)]
         needs = self.request.fmu or any(map(self._begins_with_states, asked))
@@ -271,7 +267,7 @@ class Rig:
         waiting = [job for job in jobs if job.status == "waiting"]
         if kept := len(jobs) - len(waiting):
             _say(quiet, f"info: {kept} of {len(jobs)} parts are there already and kept")
-        weights = {job.name: self._cost(of[job.name]) for job in waiting}
+        weights = {job.name: cost_of(of[job.name], self.point_s) for job in waiting}
         progress = Progress(len(waiting), quiet, weights)
 
         def ended(job: Job) -> None:
@@ -301,11 +297,6 @@ class Rig:
         if self._is_there(block):
             job.kept, job.status = True, "done"
         return job
-
-    def _cost(self, block: Block) -> float:
-        """s, about; without the reference 1."""
-        each = {"cleat": IN_TIME, "road": IN_TIME, "relaxation": STEP, "modes": MODES}.get(block.test, STEADY)
-        return (SETUP + each * len(block.points)) * (self.point_s or 1.0)
 
     def _make_fmu(self, stop: Stop) -> None:
         """DIR/tyre.fmu, or why there is none."""
@@ -354,7 +345,8 @@ class Rig:
         write_json(self.request.directory / "rig.json", {
             "format": FORMAT, "schema": 1, "title": self.tyre.title, "case": self.tyre.path.name,
             "version": self.program.version, "build_id": self.program.build_id, "quick": self.request.quick,
-            "radius": self.bench.radius, **self._wheel(found), **({"fmu": self.fmu} if self.fmu else {}), "settings": {**settings[TOP], **{k: v for k, v in settings.items() if k != TOP}},
+            "radius": self.bench.radius, **self._wheel(found), **({"fmu": self.fmu} if self.fmu else {}),
+            "settings": {**settings[TOP], **{k: v for k, v in settings.items() if k != TOP}},
             "tests": {name: found[name] for name in TESTS if name in found}, "sources": self._sources()})
 
     def _wheel(self, tests: Mapping[str, Any]) -> dict[str, Any]:
@@ -364,26 +356,6 @@ class Rig:
         figures = [name for told in tests.values() for name in told.get("figures", {})]
         wheel = {"plane": self.tyre.plane_kind, "width": self.bench.top.get("width")} if plane else {}
         return {"wheel": wheel, "units": units_of(columns, figures, per_metre)}
-
-    def plan_text(self) -> str:
-        """Tests, points, time and disk."""
-        radius = self.bench.radius  # about the height and the effective radius of all states
-        speeds = {speed for test in ("cleat", "road") for speed in self.bench.settings[test]["speeds"]}
-        curve = np.array([[0.0, radius, radius], [np.inf, radius, radius]])
-        states = States({0.0: curve, np.inf: curve}, dict.fromkeys(speeds, (radius, radius)))
-        lines, total, points, parts = [], 0.0, 0, 0.0
-        for name in self._with_first():
-            if name in self.left_out:
-                lines.append(f"{name:20}left out: {self.left_out[name]}")
-                continue
-            blocks = TESTS[name].blocks(self.bench, states)
-            cost, count = sum(map(self._cost, blocks)), sum(len(block.points) for block in blocks)
-            lines.append(f"{name:20}{count:5} points  about {readable_time(cost)} of one core")
-            total, points, parts = total + cost, points + count, parts + sum(0.1 if block.kind == SWEEP else 1.0 for block in blocks)
-        at_once = self.request.jobs or processors()
-        lines.append(f"{'all':20}{points:5} points  about {readable_time(total / at_once + PAGES)} on {at_once} cores, with "
-                     f"the report; {1e-6 * parts * self.disk:.0f} MB")
-        return "\n".join(lines) + "\n"
 
     def end(self, stop: Stop) -> int:
         if stop.asked:

@@ -47,8 +47,8 @@ def vertical(deflection: Array, load: Array, pressure: Array, nominal: Mapping[s
 
 
 def patch(length: Array, width: Array, load: Array, known: Mapping[str, float]) -> dict[str, float]:
-    """Q_RA1, Q_RA2, Q_RB1, Q_RB2, the last two of wheels with a width of the contact: half the length of the contact patch is R_0 (q_ra2 s + q_ra1 sqrt(s)), half its width
-    WIDTH (q_rb2 s + q_rb1 s^(1/3)), with s = F_z / (c_z R_0)."""
+    """Q_RA1, Q_RA2, Q_RB1, Q_RB2: half the length of the contact patch is R_0 (q_ra2 s + q_ra1 sqrt(s)), half its width
+    WIDTH (q_rb2 s + q_rb1 s^(1/3)), with s = F_z / (c_z R_0). The last two need a width of the contact."""
     if "VERTICAL_STIFFNESS" not in known or "WIDTH" not in known or len(load) < 2:
         return {}
     share = load / (known["VERTICAL_STIFFNESS"] * known["UNLOADED_RADIUS"])

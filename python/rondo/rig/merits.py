@@ -70,7 +70,7 @@ def _nominal(rig: Rig, entries: Sequence[Mapping[str, Any]]) -> dict[str, float]
 
 def _at(one: Mapping[str, Any], per_metre: bool) -> str:
     return ", ".join(said(key, float(value), per_metre) if _is_number(value) else str(value).replace("-", " ")
-                     for key, value in one.items() if key in (*STATES, "step"))
+                     for key, value in one.items() if key in (*STATES, "step") and value is not None)
 
 
 def _is_number(value: Any) -> bool:

@@ -13,10 +13,10 @@ from ..data import axes
 from ..data.errors import Error
 from ..data.files import read_json
 from ..data.plain_files import text_of
-from ..data.run import open_run
+from ..data.run import Run, open_run
 from ..data.sweep import open_sweep
 from .blocks import MODES, RESULTS, SWEEP, Bench, Block, Point
-from .slip_step import slip_step_of
+from .plane.slip_step import slip_step_of
 from .states import Row, States
 from .time_tests import SETTLING, measured_from
 
@@ -44,9 +44,7 @@ def _rows(bench: Bench, states: States | None, block: Block, folder: pathlib.Pat
     elif block.test in ("cleat", "road"):
         yield _of_history(bench, block, folder, where)
     elif block.test == "relaxation" and bench.tyre.is_plane:
-        found = slip_step_of(open_run(folder))
-        yield {**_asked(block.points[0]), "relaxation_length_63": found.length, "relaxation_length_fit": found.fitted,
-               "run": where, "status": DONE, "reason": ""}
+        yield _step_in_time(block.points[0], open_run(folder), where)
     else:
         info = read_json(folder / "run.json")
         _demand_done(info)
@@ -126,6 +124,15 @@ def _relaxation(p: Point, info: Mapping[str, Any], where: str) -> Row:
 
 
 # In time
+
+def _step_in_time(p: Point, run: Run, where: str) -> Row:
+    row = {**_asked(p), "run": where, "status": DONE, "reason": ""}
+    try:
+        found = slip_step_of(run)
+    except Error as reason:
+        return row | {"status": FAILED, "reason": str(reason)}
+    return row | {"relaxation_length_63": found.length, "relaxation_length_fit": found.fitted}
+
 
 def _of_history(bench: Bench, block: Block, folder: pathlib.Path, where: str) -> Row:
     """Peaks and rms of the ground's forces from the cleat or the road on; mean and standard deviation before them."""

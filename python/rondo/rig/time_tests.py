@@ -11,7 +11,7 @@ import numpy as np
 
 from ..data.errors import Error
 from .blocks import FMU, MODES, RUN, Bench, Block, Point, ground_of, steady_case, tyre_case
-from .slip_step import JUMP, steps_of, times_of
+from .plane.slip_step import JUMP, steps_of, times_of
 from .states import States
 
 LANDING = 0.06        # s, in which the wheel comes down to its height

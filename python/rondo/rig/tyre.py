@@ -12,7 +12,7 @@ from ..data.errors import InputError
 from ..data.plain_files import text_of
 from .keys import PLANE, SPACE
 from .plane import demand_plane_wheel, is_plane, kind_of
-from .slip_step import sectors_of
+from .plane.slip_step import sectors_of
 
 
 @dataclass(frozen=True)

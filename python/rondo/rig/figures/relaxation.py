@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from ...data.errors import Error
 from ...data.files import read_table
 from ..points import Array, levels, nominal, points, texts
-from ..slip_step import slip_step_of
+from ..plane.slip_step import slip_step_of
 from .drawing import Drawn, Given, curve, few, legend, panels
 from .runs import Missing, opened, with_runs
 

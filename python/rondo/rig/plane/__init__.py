@@ -6,7 +6,7 @@ import pathlib
 from collections.abc import Mapping
 from typing import Any
 
-from ..data.errors import InputError
+from ...data.errors import InputError
 
 LEFT_OUT = {"lateral": "a plane wheel has no slip angle, no camber and no force along its axle: give the disk a width in the "
                        "case, disk.width, for this test",

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..data.errors import Error
+from ...data.errors import Error
 
 if TYPE_CHECKING:
-    from ..data.run import Run
+    from ...data.run import Run
 
 Array = NDArray[np.float64]
 
