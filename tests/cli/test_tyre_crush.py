@@ -43,7 +43,7 @@ massless_contact = false
 samples_per_sector = 1
 """
 SLIDE = ("--set", "analysis.slide=0.004", "--set", "analysis.slide_increments=4")
-TYRE = COARSE.replace("sectors = 90", "sectors = 36") + """
+TYRE = COARSE.replace("sectors = 90", "sectors = 24") + """
 [ground]
 profile = "flat"
 friction = 0.9
@@ -154,7 +154,7 @@ layers = 1
         for words in ((), CORDS, WINDOW, ALL):
             rows, told = self.pressed(TYRE, *SMOOTH, *words)
             done = run("run", self.case(rolling(rows["center_y_m"][-1], more="speed = 3.1e-4")), "-o", self.folder / "steady",
-                       "--overwrite", "--quiet", "--set", "section.sectors=36", *words)
+                       "--overwrite", "--quiet", "--set", "section.sectors=24", *words)
             self.assertEqual(done.returncode, 0, done.stderr)
             load = summary(self.folder / "steady")["steady"]["force_y"]
             self.assertAlmostEqual(rows["force_y"][-1] / load, 1.0, delta=5e-9, msg=words)
@@ -193,7 +193,7 @@ layers = 1
     def test_check(self):
         done = run("check", self.case(TYRE), *ALL)
         self.assertEqual(done.returncode, 0, done.stderr)
-        for words in ("increments         1 to depth 0.01 m", "0.01 m, 10.1 % of", "memory", "sectors            36 of"):
+        for words in ("increments         1 to depth 0.01 m", "0.01 m, 10.1 % of", "memory", "sectors            24 of"):
             self.assertIn(words, done.stdout)
         done = run("check", self.case(TYRE.replace("depth = 0.01", "load = 3000.0")))
         self.assertIn("increments         1 to load 3000 N", done.stdout)

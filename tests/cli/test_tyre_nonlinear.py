@@ -50,7 +50,7 @@ history_interval = 1e-3
 class Standing(TyreTest):
     def stands(self, depth, *more):
         """The load in the last fifth."""
-        end = 0.06
+        end = 0.045
         done = run("run", self.case(standing(depth, end)), "-o", self.results, "--overwrite", "--quiet", *more)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLess(summary(self.results)["energy_residual_relative"], 1e-12)
