@@ -90,7 +90,7 @@ class ReducedLoss(ProgramTest):
 
     def test_what_does_not_creep_as_one_is_refused(self):
         for case, given, words in (
-                (ROOT / "cases" / "tyre-rolling.toml", (), "cords and inflation do not creep"),
+                (ROOT / "cases" / "tyre-rolling.toml", (), "the cords do not creep"),
                 (CORNERING, ("material.region=[{layers = [3], loss_factor = 0.3}]",), "regions differ in their viscous branches")):
             done = run("check", case, "--reduced", *settings(*LOSS, *given))
             self.assertEqual(done.returncode, 2, done.stderr)

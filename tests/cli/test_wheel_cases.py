@@ -70,6 +70,8 @@ class Cases(ProgramTest):
     def run_short(self, case, *settings):
         out = self.folder / "out"
         if "\n[section]\n" in case.read_text():  # a tyre, coarser than it is shipped
+            checked = run("check", case, *settings)
+            self.assertEqual(checked.returncode, 0, checked.stderr)
             settings = ("--set", "section.sectors=36", *settings)
         done = run("run", case, "-o", out, "--overwrite", "--quiet", "--set", f"time.end={SHORT}",
                    "--set", "output.snapshots=3", *settings)

@@ -129,6 +129,19 @@ TEST(NearFactors, AreMadeAnewForAnotherSystemAndNotOfASingularOne) {
   EXPECT_TRUE(nothing->isZero(0.0));
 }
 
+/// A system of one unknown, and one whose solution the first vector has: nothing is left to search.
+TEST(NearFactors, EndWhereTheVectorsHaveTheSolution) {
+  for (const Index n : {1, 5}) {
+    const MatrixXd a = 3.0 * MatrixXd::Identity(n, n);
+    const VectorXd right = VectorXd::Constant(n, 6.0), weights = VectorXd::Ones(n);
+    NearFactors near;
+    const auto x = near.solve({a, names_of(n), weights}, right, VectorXd::Zero(n));
+    ASSERT_TRUE(x);
+    EXPECT_LT((x->array() - 2.0).abs().maxCoeff(), 1e-15);
+    EXPECT_TRUE(near.is_exact());
+  }
+}
+
 /// What is solved stays where it is by factors of its own, in double precision.
 TEST(NearFactors, LeadToTheStateThatFactorsOfItsOwnKeep) {
   const rondo::test::SteadyWheel w(rondo::test::box_wheel_case());

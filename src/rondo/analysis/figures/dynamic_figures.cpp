@@ -53,7 +53,7 @@ constexpr std::array dynamic_rows{
     FigureRow{"slip_ratio_mean", "1", "1", "mean over the window"},
     FigureRow{"center_y_mean", "m", "m",
               "height of the center along the normal, mean over the window"},
-    FigureRow{"speed_mean", "m/s", "m/s", "of the center along its path, mean over the window"},
+    FigureRow{"speed_mean", "m/s", "m/s", "of the center along its heading, mean over the window"},
     FigureRow{"spin_mean", "rad/s", "rad/s", "> 0 clockwise, mean over the window"},
     FigureRow{"friction_power", "W/m", "W",
               "dissipated by friction in the window, over its length"},

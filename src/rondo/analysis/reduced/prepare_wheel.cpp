@@ -198,8 +198,10 @@ void refuse_unlike_branches(const Case& c, const Setup& setup) {
   const std::optional<std::size_t> region = unlike_region(c, setup);
   if (!region && solid && !all_creeps(*solid))
     throw case_error(c, "material",
-                     "cords and inflation do not creep, and branches of rubber resist changes of "
-                     "shape alone: the residual of a reduced wheel creeps by one spectrum",
+                     fmt::format("{}, and the residual of a reduced wheel creeps by one spectrum",
+                                 !c.cords.empty() ? "the cords do not creep"
+                                 : c.inflation    ? "what the inflation resists does not creep"
+                                                  : "the branches resist changes of shape alone"),
                      "no loss_factor and no viscosity, with [damping] in their place; or the full "
                      "run, without --reduced");
   if (!region) return;

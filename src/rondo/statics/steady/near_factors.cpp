@@ -130,10 +130,11 @@ VectorXd NearFactors::correction(const NamedSystem& system, const VectorXd& left
       next -= column[j] * basis.col(j);
     }
     column[n + 1] = next.norm();
-    if (!(column[n + 1] > 0.0) || !std::isfinite(column[n + 1])) break;
+    if (!std::isfinite(column[n + 1])) break;
     least.add(column);
-    basis.col(n + 1) = next / column[n + 1];
     ++n;
+    if (column[n] == 0.0) break;  // the vectors so far have the solution
+    basis.col(n) = next / column[n];
     if (3 * n == steps && std::pow(least.left() / norm, 3) * norm > to) break;
   }
   steps -= n;

@@ -22,38 +22,70 @@ constexpr int newton_rounds = 8, sweeps_a_round = 40;
 constexpr int most_without_gain = 15;  // steps of Newton's method
 constexpr double as_good_as_zero = 1e-14;
 
+/// A point, and how well it meets the law.
+struct Judged {
+  RollingPoint point;
+  RollingStatuses statuses;  ///< by that point
+  double residual;
+};
+
+Judged judged(const SpaceProblem& problem, const RollingDrive& drive, RollingPoint point) {
+  const VectorXd moved = gaps_and_ways(problem, point, drive.path());
+  const double residual = residual_of(problem, point, moved, drive.coefficients());
+  RollingStatuses statuses = statuses_of(problem, point, moved, drive.coefficients());
+  return {std::move(point), std::move(statuses), residual};
+}
+
+void keep(const Judged& found, RollingState& s) {
+  s.point = found.point;
+  s.statuses = found.statuses;
+  s.residual = found.residual;
+}
+
 /// Until the residual is round-off, or no longer falls; the best point stays.
-void iterate(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+/// @return whether its system is solved as exactly as by factors of its own
+bool search(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
   NearFactors near;
   RollingPoint point = s.point;
   RollingStatuses statuses = s.statuses;
   s.residual = std::numeric_limits<double>::infinity();
   int without_gain = 0;
+  bool is_exact = true;
   for (int n = 0; n < most_newton_steps && !s.effort.spent(); ++n) {
     ++s.effort.newton_steps;
     s.touches = !all_open(statuses);
-    if (!s.touches) return;
+    if (!s.touches) break;
     RollingSystem<3> system(problem, drive, statuses, point, &near);
     s.effort.work += system.work();
     RollingPoint next = system.solve();
-    if (!next.force.allFinite()) return;
-    const VectorXd moved = gaps_and_ways(problem, next, drive.path());
-    const double residual = residual_of(problem, next, moved, drive.coefficients());
-    const bool better = residual < s.residual;
-    without_gain = better ? 0 : without_gain + 1;
-    const bool settled = s.solved() && !(residual < 0.1 * s.residual);
+    if (!next.force.allFinite()) break;
     const bool is_torque_near = !drive.torque || is_near(next, point);
-    point = std::move(next);
-    statuses = statuses_of(problem, point, moved, drive.coefficients());
-    if (better || (s.solved() && residual <= rolling_residual_bound)) {
-      s.point = point;
-      s.statuses = statuses;
-      s.residual = residual;
+    Judged found = judged(problem, drive, std::move(next));
+    const bool better = found.residual < s.residual;
+    without_gain = better ? 0 : without_gain + 1;
+    const bool settled = s.solved() && !(found.residual < 0.1 * s.residual);
+    if (better || (s.solved() && found.residual <= rolling_residual_bound)) {
+      keep(found, s);
+      is_exact = system.is_exact();
     }
     const bool done =
         system.is_exact() && is_torque_near && (s.residual <= as_good_as_zero || settled);
-    if (done || without_gain == most_without_gain) return;
+    if (done || without_gain == most_without_gain) break;
+    point = std::move(found.point);
+    statuses = std::move(found.statuses);
   }
+  return is_exact;
+}
+
+/// A step by factors of its own ends a search that has given up at a point that meets the law, but
+/// whose loads are those of a system that is not solved to its end.
+void iterate(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+  if (search(problem, drive, s) || !s.solved()) return;
+  const RollingPoint around = s.point;
+  RollingPoint last = RollingSystem<3>(problem, drive, s.statuses, around).solve();
+  if (!last.force.allFinite()) return;
+  const Judged found = judged(problem, drive, std::move(last));
+  if (found.residual <= rolling_residual_bound) keep(found, s);
 }
 
 /// In the order in which the material comes by.
@@ -153,6 +185,7 @@ void begin(const RollingProblem<3>& problem, const RollingDrive& drive, RollingS
 }
 
 bool refine(const SpaceProblem& problem, const RollingDrive& drive, RollingState& s) {
+  if (problem.before.size() > 0) return false;  // groups do not have what the step before added
   const RollingGroups<3> groups = grouped(problem);
   if (2 * groups.problem.pairs.size() > problem.pairs.size()) return false;
   RollingDrive of_groups = drive;
