@@ -316,6 +316,10 @@ class Refused(ProgramTest):
         self.refuse("is given together with motion.speed", text=SMALL + "torque = 0\n")
         self.refuse("would slide", "analysis.load=1e5", "analysis.traction=4e4", text=FREE)
         self.refuse("the whole contact slides", "analysis.load=1e5", "analysis.torque=4e4", text=FREE)
+        treads = (ROOT / "cases" / "steady-treaded.toml").read_text()
+        self.refuse("allowed: more analysis.samples_per_sector", "analysis.load=1e5", "analysis.torque=0",
+                    "analysis.samples_per_sector=4", "motion.angular_velocity=66.666667",
+                    text=replaced(replaced(treads, "speed", None), "height", None))
         self.refuse("ground.friction = 0.4 times the load times the height", "analysis.load=1e5", "analysis.torque=4e4",
                     text=FREE)
         self.refuse("without friction", "analysis.load=1e5", "analysis.traction=0", "ground.friction=0", text=FREE)

@@ -197,20 +197,20 @@ void refuse_unlike_branches(const Case& c, const Setup& setup) {
   if (solid ? solid->viscous.empty() : setup.model.viscous.empty()) return;
   const std::optional<std::size_t> region = unlike_region(c, setup);
   if (!region && solid && !all_creeps(*solid))
-    throw case_error(c, "material",
-                     fmt::format("{}, and the residual of a reduced wheel creeps by one spectrum",
-                                 !c.cords.empty() ? "the cords do not creep"
-                                 : c.inflation    ? "what the inflation resists does not creep"
-                                                  : "the branches resist changes of shape alone"),
-                     "no loss_factor and no viscosity, with [damping] in their place; or the full "
-                     "run, without --reduced");
+    throw case_error(
+        c, "material",
+        fmt::format("{}, and what no mode of a reduced wheel has can only creep as a whole",
+                    !c.cords.empty() ? "the cords do not creep"
+                    : c.inflation    ? "what the inflation resists does not creep"
+                                     : "the branches resist changes of shape alone"),
+        "no loss_factor and no viscosity, with [damping] in their place; or the full "
+        "run, without --reduced; or steady rolling");
   if (!region) return;
   throw case_error(c, item_of("material.region", *region),
                    "regions differ in their viscous branches, and what no mode of a reduced wheel "
-                   "has creeps by one spectrum",
+                   "has can only creep as a whole",
                    "no loss_factor and no viscosity of a region, and one for all of the body in "
-                   "[material], such as the mean of the regions by the energy of their strains; or "
-                   "the full run, without --reduced");
+                   "[material]; or the full run, without --reduced; or steady rolling");
 }
 
 void refuse(const Case& c, const Setup& setup) {

@@ -80,6 +80,10 @@ std::string SteadyState<D>::why_it_slides() const {
   if (drive_.friction == 0.0)
     return "motion.speed instead, because without friction no traction determines it; or "
            "ground.friction above 0";
+  const double asked = case_.analysis.torque.value_or(case_.analysis.traction.value_or(1.0));
+  if (asked == 0.0 && drive_.slip_angle == 0.0)
+    return "more analysis.samples_per_sector, because a wheel that rolls freely slides as a whole "
+           "only where the search for its speed fails; or motion.speed instead";
   if (D == 3)
     return "nearer to 0, or a smaller motion.slip_angle, because both share the friction; or "
            "motion.speed instead";
