@@ -11,7 +11,8 @@ from rig_wheels import files, rig
 import rondo
 from rondo import files as exchanged
 from rondo.data.errors import InputError
-from rondo.rig import figures
+from rondo.rig import figures, report
+from rondo.rig.against import compare
 from rondo.rig.keys import PLANE, SPACE
 from rondo.rig.plane import LEFT_OUT, slip_step
 from rondo.rig.settings import read_settings
@@ -152,6 +153,23 @@ def test_files_have_what_a_plane_wheel_has(with_width):
     fx, slip, load = columns(with_width, "longitudinal", "Fx", "slip_ratio", "load")
     found = rondo.magic_formula.evaluate(tir, slip_ratio=slip, load=load)
     assert np.abs(found.Fx - fx).max() < 0.05 * np.abs(fx).max() and (found.Fy == 0).all()
+
+
+@pytest.mark.parametrize("test, channels", [("longitudinal", {"Fx", "My"}), ("rolling-resistance", {"Fx", "My"})])
+def test_the_rig_is_as_its_own_files(with_width, test, channels):
+    found = compare(with_width, with_width.directory / f"{test}.tdx")
+    assert {one.channel for one in found.differences if one.test == test} == channels and found.warnings == ()
+    assert [one for one in found.differences if one.test == test and not (one.of_largest < 1e-4 and one.rows > 1)] == []
+
+
+def test_a_measured_test_that_is_nowhere_compared_is_told(with_width, tmp_path):
+    """Its loads are beyond those of the rig; the vertical stiffness is not."""
+    (tmp_path / "forces.csv").write_text("LONGSLIP,FX,FZW,DSTGRWHC\n-0.03,-9000,40000,\n0.03,9000,40000,\n0,,4000,0.29\n")
+    found = compare(with_width, tmp_path / "forces.csv")
+    assert {one.test for one in found.differences} == {"vertical"}
+    text, = found.warnings
+    assert "longitudinal: none of its " in text and "run the rig with the loads" in text
+    assert "longitudinal: none of its " in report.write(with_width, tmp_path / "report.html", found).read_text()
 
 
 def test_an_fmu_that_fails_is_told_at_the_end(tmp_path):

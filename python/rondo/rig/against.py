@@ -66,7 +66,7 @@ class Comparison:
     path: pathlib.Path
     measured: dict[str, dict[str, Array]]  # by test: the columns of its rows in SI and ISO-W
     differences: tuple[Difference, ...]
-    warnings: tuple[str, ...] = ()  # of channels whose sign is likely that of other axes
+    warnings: tuple[str, ...] = ()  # of channels whose sign is likely that of other axes, and of tests not compared
 
     @property
     def lines(self) -> list[str]:
@@ -118,7 +118,10 @@ def compare(rig: Rig, file: str | os.PathLike[str]) -> Comparison:
         if not channels:
             continue
         shown[test] = states
-        differences += [one for name in channels if (one := _difference(test, name, way, ours, states)) is not None]
+        of_test = [one for name in channels if (one := _difference(test, name, way, ours, states)) is not None]
+        differences += of_test
+        if not of_test:
+            warnings.append(_warning_of_beyond(measured, test, ours, states))
         warnings += [text for name in SIGNED.get(test, ()) if name in channels
                      if (text := _warning_of_sign(measured, test, name, way, ours, states))]
     if not differences:
@@ -190,12 +193,23 @@ def _warning_of_sign(measured: Measured, test: str, channel: str, way: Way, mine
             "it with rondo.axes.convert (docs/conventions.md); the differences here are as the file has it")
 
 
+def _warning_of_beyond(measured: Measured, test: str, mine: dict[str, Array], states: dict[str, Array]) -> str:
+    theirs = "; ".join(told(states, name) for name in UNITS if np.isfinite(states[name]).any())
+    return (f"{measured.path}: {test}: none of its {len(states['load'])} states is within the points of the rig, and the test is not "
+            f"compared: the file has {theirs} (allowed: states between those of the rig: {_extent(test, mine)}): run the rig with the "
+            "loads, pressures and cambers of the measurement")
+
+
+def _extent(test: str, mine: dict[str, Array]) -> str:
+    """Of the points of the rig, in words."""
+    return f"{told(mine, WAYS[test].along)}, loads {_range(mine['load'])} N"
+
+
 def _nothing_in_common(rig: Rig, measured: Measured, shown: dict[str, dict[str, Array]]) -> str:
     """What each side has."""
     if shown:
         theirs = "; ".join(told(measured.columns, name) for name in measured.columns)
-        ours = "; ".join(f"{test}: {told(mine, WAYS[test].along)}, loads {_range(mine['load'])} N" for test in shown
-                         for mine in [points(rig, test, COLUMNS)])
+        ours = "; ".join(f"{test}: {_extent(test, points(rig, test, COLUMNS))}" for test in shown)
         return (f"{measured.path}: no state within the points of the rig: the file has {theirs} (allowed: states between "
                 f"those of the rig: {ours}): run the rig with the loads, pressures and cambers of the measurement")
     there = [test for test in WAYS if len(points(rig, test, ("load",))["load"])]

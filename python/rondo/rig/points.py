@@ -22,9 +22,8 @@ ALIKE = 0.03  # relative: speeds of one spin differ by as much, because radii do
 
 def points(rig: Rig, test: str, names: Iterable[str]) -> Columns:
     """The columns `names` of the points of a test that are done, (rows,) each; NaN: the test does not have the column;
-    pressure 0: a wheel without air. Forces are N, or N/m of a
-    rig per metre of width. Points of the mirrored tyre are left out. No rows where the rig has not come to the
-    test."""
+    pressure 0: a wheel without air; camber and slip angle 0: a wheel in the plane. Forces are N, or N/m of a rig per metre of
+    width. Points of the mirrored tyre are left out. No rows where the rig has not come to the test."""
     wanted = list(names)
     if test not in rig.tests:
         return {name: np.empty(0) for name in wanted}
@@ -33,8 +32,9 @@ def points(rig: Rig, test: str, names: Iterable[str]) -> Columns:
     there = {name: column_name(name, rig.per_metre) for name in wanted}
     found = {name: np.asarray(table[column], dtype=float)[done] if column in table else np.full(len(done), np.nan)
              for name, column in there.items()}
-    if "pressure" in found:
-        found["pressure"] = np.nan_to_num(found["pressure"], nan=0.0)
+    for name in ("pressure", *(("camber", "slip_angle") if rig.plane else ())):
+        if name in found:
+            found[name] = np.nan_to_num(found[name], nan=0.0)
     return found
 
 

@@ -70,7 +70,6 @@ def _sizes(given: Given) -> Iterator[Drawn]:
     """Over the load, by camber at the nominal pressure."""
     found = points(given.rig, "footprint", (*STATE, *(name for name, _, _ in SIZES)))
     found = chosen(found, np.isfinite(found["contact_length"]))
-    found["camber"] = np.nan_to_num(found["camber"])  # which a plane wheel does not have
     if len(levels(found["load"])) < 2:
         return
     pressure = nominal(given.rig, "pressure", found["pressure"])
