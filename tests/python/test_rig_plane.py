@@ -14,7 +14,8 @@ from rondo.data.errors import InputError
 from rondo.rig import figures, report
 from rondo.rig.against import compare
 from rondo.rig.keys import PLANE, SPACE
-from rondo.rig.plane import LEFT_OUT, slip_step
+from rondo.rig.plane import LEFT_OUT, left_out_of, slip_step
+from rondo.rig.plane.damping import with_damping_below
 from rondo.rig.settings import read_settings
 from rondo.rig.tyre import read_tyre
 
@@ -230,6 +231,30 @@ def test_a_step_that_does_not_settle_is_a_row(tmp_path):
     assert list(table["status"]) == ["failed"] and table["reason"][0].startswith("force_x has not settled after the step: roll farther")
 
 
+VISCOUS = PLANE_WHEEL.replace("[damping]", "loss_factor = 0.2\nloss_band = [1.0, 1000.0]\n[damping]")
+
+
+def test_a_viscous_wheel_has_no_relaxation(tmp_path):
+    """Which is no failure, and refused where it is named."""
+    case, settings = files(tmp_path, VISCOUS, RIG)
+    assert rig(case, "--rig", settings, "--quick", "--dry-run").stdout.count("relaxation          left out: ") == 1
+    said = rig(case, "--rig", settings, "--tests", "relaxation", "-o", tmp_path / "rig", code=2).stderr
+    assert "--tests: relaxation: " in said and "leave out loss_factor and viscosity" in said
+    assert "relaxation" in left_out_of({"material": {"region": [{"viscosity": [[0.1, 0.01]]}]}})
+    assert "relaxation" not in left_out_of({"material": {"loss_factor": 0, "region": [{"viscosity": []}]}})
+
+
+def test_without_a_time_step_only_relaxation_fails(tmp_path):
+    """There is a file in the place of the folder of its results."""
+    case, settings = files(tmp_path, PLANE_WHEEL, RIG)
+    (tmp_path / "rig" / "runs" / "time-step").mkdir(parents=True)
+    (tmp_path / "rig" / "runs" / "time-step" / "results").write_text("")
+    said = rig(case, "--rig", settings, "--quick", "--tests", "vertical,relaxation", "-o", tmp_path / "rig", code=3).stderr
+    assert "relaxation: left out: of this wheel a run in time fails: " in said
+    tests = rondo.open_rig(tmp_path / "rig").info["tests"]
+    assert tests["vertical"]["status"] == "finished" and "a run in time fails" in tests["relaxation"]["reason"]
+
+
 def test_a_tread_keeps_its_pitches(tmp_path):
     tread = "[disk.mesh]\nradial = 2\n[disk.tread]\npitches = 40\ndepth = 0.01\nland_columns = 2\ngroove_columns = 1\nlayers = 1\n"
     case, settings = files(tmp_path, PLANE_WHEEL.replace("[disk.mesh]\nradial = 2\ncircumferential = 90\n", tread), RIG)
@@ -242,14 +267,15 @@ def test_a_tread_keeps_its_pitches(tmp_path):
     assert "leave sectors out" in rig(case, "--rig", settings, "--dry-run", code=2).stderr
 
 
-def of_history(length, settles=True):
-    """A run whose force follows a step exponentially, with a ripple of each sector that passes."""
-    case = {"disk": {"mesh": {"circumferential": 90}}, "motion": {"angular_velocity": 40.0, "speed": [[0.0, 12.0], [0.1, 12.0], [0.1001, 11.9]]}}
+def of_history(length, settles=True, friction=0.8, wave=0.0):
+    """A run whose force follows a step exponentially, with a ripple of each sector that passes. wave: of the change, that dies away."""
+    case = {"ground": {"friction": friction}, "disk": {"mesh": {"circumferential": 90}}, "motion": {"angular_velocity": 40.0, "speed": [[0.0, 12.0], [0.1, 12.0], [0.1001, 11.9]]}}
     pass_s = 2 * np.pi / 40 / 90
     time = np.arange(0.0, 0.3 if settles else 0.11, pass_s / 40)
     rolled = 11.9 * np.maximum(time - 0.1, 0.0)
     force = 50.0 + 100.0 * (1 - np.exp(-rolled / length)) + 300.0 * np.cos(2 * np.pi * time / pass_s)
-    return types.SimpleNamespace(case=case, history={"time_s": time, "force_x": force})
+    force += 100.0 * wave * np.sin(2 * np.pi * rolled / 0.1) * np.exp(-rolled / 0.3)
+    return types.SimpleNamespace(case=case, history={"time_s": time, "force_x": force, "force_y": np.full(len(time), 1000.0)})
 
 
 def test_lengths_of_a_step():
@@ -258,6 +284,36 @@ def test_lengths_of_a_step():
     assert (step.before, step.after) == (pytest.approx(50.0, abs=0.5), pytest.approx(150.0, abs=0.5))
     with pytest.raises(rondo.Error, match="has not settled"):
         slip_step.slip_step_of(of_history(0.15, settles=False))
+
+
+@pytest.mark.parametrize("change, words", [
+    ({"friction": 0.2}, "50 % of what friction carries, and the contact slides"),
+    ({"friction": {"coefficient": 0.8, "slip_speed": [[0.0, 1.0], [0.05, 0.25]]}}, "make the step smaller"),
+    ({"friction": {"coefficient": 0.8, "slip_speed": [[0.0, 0.2], [0.2, 1.0]]}}, "62 % of what friction"),
+    ({"friction": 0.0}, "of what friction carries"),
+    ({"wave": 1.0}, "does not follow the step exponentially")])
+def test_steps_that_tell_no_length(change, words):
+    assert slip_step.slip_step_of(of_history(0.15, friction=0.26)).fitted == pytest.approx(0.15, rel=0.01)
+    with pytest.raises(rondo.Error, match=words):
+        slip_step.slip_step_of(of_history(0.15, **change))
+
+
+@pytest.mark.parametrize("text, code, words", [("friction = 0.04", 3, "of what friction carries"),
+                                               ("[relaxation]\nmass_damping = 1e8", 2, "<= 554.7, half of critical damping")])
+def test_a_wrong_relaxation_length_is_none(tmp_path, text, code, words):
+    case, settings = files(tmp_path, PLANE_WHEEL, f"schema = 1\nwidth = {WIDTH}\nload = 2000.0\n[vertical]\nloads = [2000.0]\n{text}\n" if text[0] == "["
+                           else f"schema = 1\nwidth = {WIDTH}\nload = 2000.0\n{text}\n[vertical]\nloads = [2000.0]\n")
+    said = rig(case, "--rig", settings, "--quick", "--tests", "relaxation", "-o", tmp_path / "rig", code=code).stderr
+    assert words in (said if code == 2 else rondo.open_rig(tmp_path / "rig").tests["relaxation"].table["reason"][0])
+
+
+def test_damping_of_a_soft_wheel():
+    """Critical is twice the frequency: the default is lowered to half of it, and what the rig file says is refused above it."""
+    settings = {"relaxation": {"mass_damping": 100.0, "distance": 2.0}}
+    assert with_damping_below(101.0, settings, {}, None) is settings
+    assert with_damping_below(60.0, settings, {}, None)["relaxation"] == {"mass_damping": pytest.approx(60.0, rel=5e-3), "distance": 2.0}
+    with pytest.raises(InputError, match="<= 60, half of critical"):
+        with_damping_below(60.0, settings, settings, None)
 
 
 def test_steps_are_a_whole_number_in_a_pass():

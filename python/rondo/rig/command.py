@@ -21,7 +21,8 @@ from .blocks import MADE_OF, RESULTS, SWEEP, Bench, Block
 from .defaults import nominal, with_defaults
 from .findings import find
 from .keys import TOP
-from .plane import LEFT_OUT, NOTES, WITHOUT_WIDTH, fmu_note
+from .plane import NOTES, WITHOUT_WIDTH, fmu_note, left_out_of
+from .plane.damping import lowest_of, with_damping_below
 from .planning import cost_of, plan_text
 from .record import FORMAT, replace_text, write_channels, write_json, write_table
 from .rows import DONE, FAILED, free_radius, rows_of_block
@@ -29,7 +30,7 @@ from .settings import Settings, is_per_metre, read_settings, settings_text
 from .states import Row, States, states_of
 from .steady_tests import at_speeds, reference
 from .tests_table import TESTS
-from .time_tests import fmu, stable_step
+from .time_tests import fmu, lowest_mode, stable_step
 from .tyre import Tyre, read_tyre
 from .units import units_of
 
@@ -56,7 +57,7 @@ def plan(request: Request) -> str:
     with tempfile.TemporaryDirectory() as folder:
         rig = Rig(replace(request, directory=pathlib.Path(folder)))
         rig.begin(Stop())
-        return plan_text(rig.bench, rig.wanted(), rig.left_out, rig.point_s, rig.disk, request.jobs or processors())
+        return plan_text(rig.bench, rig.wanted(), {**rig.left_out, **rig.cannot}, rig.point_s, rig.disk, request.jobs or processors())
 
 
 def defaults_text(request: Request) -> str:
@@ -102,7 +103,7 @@ class Rig:
         self.request, self.program = request, find_program()
         self.tyre: Tyre = read_tyre(request.case)
         self.given: Settings = read_settings(request.rig, self.tyre.wheels)
-        self.left_out: Mapping[str, str] = LEFT_OUT if self.tyre.is_plane else {}  # tests that the wheel cannot do, and why
+        self.left_out: Mapping[str, str] = left_out_of(self.tyre.case) if self.tyre.is_plane else {}  # tests that the wheel cannot do, and why
         for name in request.tests:
             if name in self.left_out:
                 raise InputError(f"--tests: {name}: {self.left_out[name]} (allowed: "
@@ -113,6 +114,7 @@ class Rig:
         self.rows: dict[str, list[Row]] = {}
         self.tests: dict[str, dict[str, Any]] = {}
         self.failures: dict[str, str] = {}  # of commands, by block
+        self.cannot: dict[str, str] = {}  # tests that could not begin, and why
         self.states: States | None = None
         self.point_s = 0.0  # of the solver, for a point of the reference
         self.disk = 0       # bytes of its results
@@ -199,17 +201,25 @@ class Rig:
         self.disk = int(sum(path.stat().st_size for path in (self.runs / block.name / RESULTS).iterdir()))
         settings = with_defaults(self.tyre, self.given, self.request.quick, radius)
         self.bench = Bench(self.tyre, settings, self.bench.mesh, radius)
-        if self.tyre.is_plane and "relaxation" in self.wanted():
-            self._find_stable_step(stop)
+        if self.tyre.is_plane and "relaxation" in self.wanted() and "relaxation" not in self.left_out:
+            self._prepare_time_steps(stop)
 
-    def _find_stable_step(self, stop: Stop) -> None:
-        block = stable_step(self.bench)
+    def _prepare_time_steps(self, stop: Stop) -> None:
+        """Damping and time step of the relaxation of a plane wheel. Where they cannot be found, only this test fails."""
+        mode = self._begun(lowest_mode(self.bench), "its lowest mode", stop)
+        if mode is None:
+            return
+        self.bench = replace(self.bench, settings=with_damping_below(lowest_of(mode), self.bench.settings, self.given, self.request.rig))
+        turned = self._begun(stable_step(self.bench), "a run in time", stop)
+        if turned is not None:
+            self.bench = replace(self.bench, stable_step=float(read_json(turned / "run.json")["step"]))
+
+    def _begun(self, block: Block, what: str, stop: Stop) -> pathlib.Path | None:
+        """Its results; None: interrupted, or failed, which is why there is no relaxation."""
         self._run([block], stop, quiet=True)
         if block.name in self.failures:
-            raise Error(f"the wheel does not turn in time: {self.failures[block.name]}")
-        if not stop.asked:
-            info = read_json(self.runs / block.name / RESULTS / "run.json")
-            self.bench = replace(self.bench, stable_step=float(info["step"]))
+            self.cannot["relaxation"] = "; ".join(f"of this wheel {what} fails: {self.failures[block.name]}".splitlines())
+        return None if stop.asked or block.name in self.failures else self.runs / block.name / RESULTS
 
     def do_tests(self, stop: Stop) -> None:
         wanted = self.wanted()
@@ -218,7 +228,7 @@ class Rig:
             for name in tests:
                 self.blocks[name], why = self._build(name)
                 self.tests[name] = {"status": "left out", "reason": why} if why else {"status": "running"}
-                if self.tyre.is_plane and name in NOTES:
+                if self.tyre.is_plane and name in NOTES and not why:
                     self.tests[name]["note"] = NOTES[name]
                 blocks += self.blocks[name]
             others = at_speeds(self.bench, wanted) if FIRST in tests else []
@@ -251,8 +261,8 @@ class Rig:
 
     def _build(self, name: str) -> tuple[list[Block], str]:
         """Its blocks, or why there are none."""
-        if name in self.left_out:
-            return [], self.left_out[name]
+        if why := self.left_out.get(name) or self.cannot.get(name):
+            return [], why
         try:
             return TESTS[name].blocks(self.bench, self.states or States({})), ""
         except Error as reason:

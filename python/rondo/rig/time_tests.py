@@ -120,6 +120,13 @@ def fmu(bench: Bench, states: States) -> Block:
     return replace(block, kind=FMU, options=block.options[1:])  # without --reduced, which it is
 
 
+def lowest_mode(bench: Bench) -> Block:
+    """Of the free wheel: how much damping its runs in time may have."""
+    case = steady_case(bench, "mode", None, bench.spin(), torque=0.0)
+    point = Point(bench.top["load"], None, 0.0)
+    return Block("reference", "lowest-mode", MODES, case, (point,), options=("--count", "1", "--spin", "0"))
+
+
 def stable_step(bench: Bench) -> Block:
     """A run of a plane wheel above the ground for a moment, which tells the time step of its runs in time."""
     case = tyre_case(bench, "step", None)

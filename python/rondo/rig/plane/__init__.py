@@ -11,6 +11,9 @@ from ...data.errors import InputError
 LEFT_OUT = {"lateral": "a plane wheel has no slip angle, no camber and no force along its axle: give the disk a width in the "
                        "case, disk.width, for this test",
             "combined": "a plane wheel has no slip angle: give the disk a width in the case, disk.width, for this test"}
+VISCOUS = ("relaxation of a plane wheel is by steps in time that begin with steady rolling, and a viscous material cannot begin so: leave "
+           "out loss_factor and viscosity of the material for this test; a wheel in three dimensions, disk.width in the case, does "
+           "it with them")
 NOTES = {"footprint": "A plane wheel has a length of contact, of a tread without its grooves, and a pressure along it. Both are "
                       "the same all over the width: there is no width of the contact and no area.",
          "relaxation": "A plane wheel has a step of the slip ratio, and none of the slip angle. It is computed by steps in time "
@@ -32,6 +35,16 @@ STEADY = "the rig tests by steady rolling, for which"
 def is_plane(case: Mapping[str, Any]) -> bool:
     """A disk without a width, or a mesh in the plane."""
     return "section" not in case and "width" not in _table(case, "disk") and ("disk" in case or "mesh" in case)
+
+
+def left_out_of(case: Mapping[str, Any]) -> dict[str, str]:
+    """Tests that this plane wheel cannot do, and why."""
+    return LEFT_OUT | ({"relaxation": VISCOUS} if _is_viscous(case) else {})
+
+
+def _is_viscous(case: Mapping[str, Any]) -> bool:
+    material = _table(case, "material")
+    return any(one.get("loss_factor") or one.get("viscosity") for one in (material, *material.get("region", [])))
 
 
 def kind_of(case: Mapping[str, Any]) -> str:

@@ -29,6 +29,10 @@ JUMP = 0.1      # of the pass of a sector: how long the speed takes for its step
 LAST = 0.1      # of the distance: its force counts as that after the step
 UNSETTLED = 0.02  # of the change: how much the force may still change from the last tenth but one to the last
 LENGTHS = 41    # that a fit tries at once
+# Of what friction carries: the most that a step may change the force. Measured beside a step of 0.002 (docs/rig.md, 4), the
+# length of a disk is 5 % shorter where the step takes 26 % of it, 8 % at 35 %, 17 % at 65 %.
+CARRIED = 0.4
+APART = 2.0     # times: the most that the length at 63.2 % and that of the exponential may differ; vibrations alone make 1.7
 
 
 @dataclass(frozen=True)
@@ -79,9 +83,10 @@ def steps_of(pass_s: float, stable_s: float) -> tuple[float, float]:
 
 
 def slip_step_of(run: Run) -> SlipStep:
-    """@raise Error: the force has not settled after the step, or does not change."""
+    """@raise Error: the force has not settled after the step, the step is too large for the friction, or the course of the force is
+    no exponential."""
     motion = run.case["motion"]
-    (_, _), (begin, _), (_, speed) = motion["speed"]
+    (_, _), (begin, speed_before), (_, speed) = motion["speed"]
     pass_s = 2.0 * math.pi / abs(float(motion["angular_velocity"])) / sectors_of(run.case)
     time, mean = _means(np.asarray(run.history["time_s"]), np.asarray(run.history["force_x"]), pass_s)
     ahead = (time < begin - 0.5 * pass_s) & (time > 0.5 * begin)
@@ -94,7 +99,36 @@ def slip_step_of(run: Run) -> SlipStep:
     before = float(mean[ahead].mean())
     if not abs(last - before_last) <= UNSETTLED * abs(last - before):
         raise Error("force_x has not settled after the step: roll farther (relaxation.distance)")
-    return SlipStep(distance, force, before, float(last))
+    slip_speed = abs(float(speed_before) - float(speed))
+    carried = friction_of(run.case, slip_speed) * abs(float(np.mean(run.history["force_y"])))
+    _demand_small(abs(float(last) - before), carried, slip_speed / abs(float(speed)))
+    step = SlipStep(distance, force, before, float(last))
+    _demand_exponential(step)
+    return step
+
+
+def friction_of(case: Mapping[str, Any], slip_speed: float) -> float:
+    """The smaller coefficient of those at rest and at this slip speed. The factor of the pressure is taken as 1."""
+    friction = case["ground"]["friction"]
+    if not isinstance(friction, Mapping):
+        return float(friction)
+    speeds, factors = np.array(friction.get("slip_speed", [[0.0, 1.0]]), dtype=float).T
+    return float(friction["coefficient"]) * float(np.interp([0.0, slip_speed], speeds, factors).min())
+
+
+def _demand_small(change: float, carried: float, ratio: float) -> None:
+    if not change <= CARRIED * carried:
+        raise Error(f"the step of the slip ratio, {ratio:.3g}, changes force_x by {100.0 * change / carried if carried else np.inf:.0f} % of what "
+                    f"friction carries, and the contact slides, which makes the relaxation length shorter (allowed: up to {100.0 * CARRIED:.0f} %): "
+                    "make the step smaller (relaxation.slip_ratio_step)")
+
+
+def _demand_exponential(step: SlipStep) -> None:
+    lengths = step.length, step.fitted
+    if not max(lengths) <= APART * min(lengths):
+        raise Error(f"force_x does not follow the step exponentially: 63.2 % of its change are reached after {step.length:.3g} m, and the "
+                    f"length of the exponential is {step.fitted:.3g} m: change the damping of the vibrations or the step "
+                    "(relaxation.mass_damping, relaxation.slip_ratio_step)")
 
 
 def sectors_of(case: Mapping[str, Any]) -> int:
