@@ -13,6 +13,7 @@ from rondo import files as exchanged
 from rondo.data.errors import InputError
 from rondo.rig import figures, report
 from rondo.rig.against import compare
+from rondo.rig.defaults import with_defaults
 from rondo.rig.keys import PLANE, SPACE
 from rondo.rig.plane import LEFT_OUT, left_out_of, slip_step
 from rondo.rig.plane.damping import with_damping_below
@@ -201,12 +202,23 @@ def test_what_a_plane_wheel_cannot_do(tmp_path, monkeypatch, arguments, words):
     ("inner_radius", 'rim = "free"\ninner_radius', 'disk.rim = "free"'),
     ("[ground]", "[load]\npressure = 1e5\n[ground]", "[load]: the rig tests a plane wheel without it"),
     ("[ground]", "[inflation]\npressure = 1e5\n[ground]", "air is of wheels in three dimensions"),
-    ("circumferential = 90\n", "", "disk.mesh.circumferential: is missing")])
+    ("circumferential = 90\n", "", "disk.mesh.circumferential: is missing"),
+    ("[damping]", "[material.region]\nyoungs_modulus = 1e7\n[damping]", "material.region: is no list of tables (allowed: [[material.region]]"),
+    ("[damping]", "[disk.tread]\npitches = 40\ndepth = 0.01\n[damping]", "disk.tread.land_columns, disk.tread.groove_columns: is missing"),
+    ("circumferential = 90\n", 'circumferential = "90"\n', "disk.mesh.circumferential = '90' (allowed: a whole number >= 1)"),
+    ("[disk.mesh]\nradial = 2\ncircumferential = 90\n", "mesh = 3\n", "disk.mesh: is no table (allowed: [disk.mesh])")])
 def test_cases_that_are_refused(tmp_path, old, new, words):
     case, _ = files(tmp_path, PLANE_WHEEL.replace(old, new, 1).replace("poissons_ratio = 0.0", "poissons_ratio = 0"))
     with pytest.raises(InputError) as error:
         read_tyre(case)
     assert words in str(error.value)
+
+
+def test_a_speed_of_the_rig_file_is_told(tmp_path):
+    """Of a case without a spin."""
+    case, settings = files(tmp_path, PLANE_WHEEL.replace("[motion]\nangular_velocity = 40.0\n", ""), f"speed = 0.3\n{RIG}")
+    with pytest.raises(InputError, match="speed of the rig file: 0.3 m/s, and cleat and road"):
+        with_defaults(read_tyre(case), read_settings(settings, PLANE), True, 0.3)
 
 
 @pytest.mark.parametrize("wheels, text, words", [

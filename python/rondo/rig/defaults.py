@@ -43,8 +43,9 @@ def with_defaults(tyre: Tyre, given: Settings, quick: bool, radius: float) -> Se
     if "speed" not in top:
         top["speed"] = _short((tyre.spin or 0.0) * radius)
     if top["speed"] < SLOWEST:
-        raise InputError(f"{tyre.path}: motion.angular_velocity: {tyre.spin:g} rad/s are {top['speed']:g} m/s, and cleat and road "
-                         f"would take hours (allowed: {SLOWEST} m/s and more; or speed = 13.7 in a rig file, --rig)")
+        found = "speed of the rig file:" if "speed" in given[TOP] else f"{tyre.path}: motion.angular_velocity: {tyre.spin or 0.0:g} rad/s are"
+        raise InputError(f"{found} {top['speed']:g} m/s, and cleat and road would take hours (allowed: {SLOWEST} m/s and more; or speed = 13.7 "
+                         "in a rig file, --rig)")
     top.setdefault("loads", _times(load, (0.5, 1.0, 1.5) if quick else (0.5, 0.75, 1.0, 1.5)))
     top.setdefault("pressures", _times(pressure, (0.8, 1.0) if quick else (0.8, 1.0, 1.2)) if pressure else [])
     top.setdefault("cambers_deg", [0.0, 3.0] if quick else [-3.0, 0.0, 3.0])

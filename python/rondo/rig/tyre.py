@@ -14,6 +14,13 @@ from .keys import PLANE, SPACE
 from .plane import demand_plane_wheel, is_plane, kind_of
 from .plane.slip_step import sectors_of
 
+# What the rig reads of a case by itself: a case that has it of another kind is refused. `rondo check` tells all that is wrong.
+TABLES = ("section", "disk", "disk.mesh", "disk.tread", "material", "inflation", "damping", "motion", "ground", "analysis", "rim")
+LISTS_OF_TABLES = ("material.region", "cords")
+COUNTS = {"section.sectors": 1, "disk.mesh.circumferential": 1, "disk.tread.pitches": 1, "disk.tread.land_columns": 1,
+          "disk.tread.groove_columns": 0, "analysis.samples_per_sector": 1}  # and the least
+TREAD = ("disk.tread.pitches", "disk.tread.land_columns", "disk.tread.groove_columns")  # which a tread has to have
+
 
 @dataclass(frozen=True)
 class Tyre:
@@ -100,6 +107,7 @@ def read_tyre(path: pathlib.Path) -> Tyre:
         raise InputError(f"{path}: cannot be read: {reason}") from None
     if "section" not in case and not isinstance(case.get("disk", case.get("mesh")), dict):
         raise InputError(f"{path}: has no wheel (allowed: a [section], or a [disk], in the plane or with a width)")
+    _demand_kinds(path, case)
     if is_plane(case):
         demand_plane_wheel(path, case)
     if "section" in case and "file" not in case["section"]:
@@ -113,6 +121,31 @@ def read_tyre(path: pathlib.Path) -> Tyre:
     if "section" not in case and "tread" not in disk and "circumferential" not in disk.get("mesh", {}):
         raise InputError(f"{path}: disk.mesh.circumferential: is missing (allowed: columns of elements around the axle, as 120)")
     return Tyre(path, text, case)
+
+
+def _demand_kinds(path: pathlib.Path, case: dict[str, Any]) -> None:
+    for name in TABLES:
+        if not isinstance(_at(case, name, {}), dict):
+            raise InputError(f"{path}: {name}: is no table (allowed: [{name}])")
+    for name in LISTS_OF_TABLES:
+        found = _at(case, name, [])
+        if not isinstance(found, list) or not all(isinstance(one, dict) for one in found):
+            raise InputError(f"{path}: {name}: is no list of tables (allowed: [[{name}]], once for each)")
+    for name, least in COUNTS.items():
+        found = _at(case, name, least)
+        if not isinstance(found, int) or isinstance(found, bool) or found < least:
+            raise InputError(f"{path}: {name} = {found!r} (allowed: a whole number >= {least})")
+    if "tread" in case.get("disk", {}) and (missing := [name for name in TREAD if _at(case, name, None) is None]):
+        raise InputError(f"{path}: {', '.join(missing)}: is missing (allowed: whole numbers, docs/cases.md, [disk.tread])")
+
+
+def _at(case: dict[str, Any], name: str, otherwise: Any) -> Any:
+    """Of a key of a case by its name with points."""
+    for part in name.split("."):
+        if part not in case:
+            return otherwise
+        case = case[part]
+    return case
 
 
 def _last(value: Any) -> float | None:
