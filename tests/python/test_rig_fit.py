@@ -108,6 +108,19 @@ def test_relaxation_lengths_are_those_of_the_file(whole, tmp_path, loads, met):
     assert len(lines) == 2 and all(f"at {len(loads)} load" in line for line in lines)
 
 
+@pytest.mark.parametrize("most, powers", [(6500.0, 2), (9000.0, 1)])
+def test_relaxation_lengths_are_positive_at_all_loads(whole, tmp_path, most, powers):
+    """C is 2e4 at the largest load of the rig, and falls below 0 at 6615 N."""
+    made = files.read_tir(whole[0] / "tyre.tir").with_values({"FZMAX": most})
+    loads, tyre = np.array([2000.0, 6000.0]), np.array([1.5e5, 2.0e4])
+    lengths = rondo.magic_formula.evaluate(made, load=loads).slip_stiffness / tyre
+    rows = [{"load": load, "pressure": rigs.PRESSURE, "step": "slip-ratio", "relaxation_length_fit": length}
+            for load, length in zip(loads, lengths)]
+    found, (line,) = with_relaxation(made, rondo.open_rig(rigs.write(tmp_path / "rig", {"relaxation": rows})))
+    assert ("PCFX1" in found, "1 power of the load less" in line) == (powers == 2, powers == 1)
+    assert found.number("LONGITUDINAL_STIFFNESS") > 0 and found.number("PCFX1") * (most / made.number("FNOMIN") - 1) > -1
+
+
 def test_no_relaxation_length_without_a_stiffness(whole, tmp_path):
     """A file of a wheel in the plane has no cornering stiffness."""
     row = {"load": 4000.0, "pressure": rigs.PRESSURE, "step": "slip-angle", "relaxation_length_fit": 0.4}
