@@ -14,6 +14,7 @@ from rondo.data.errors import InputError
 from rondo.rig import figures, report
 from rondo.rig.against import compare
 from rondo.rig.defaults import with_defaults
+from rondo.rig.findings import doubt_of
 from rondo.rig.keys import PLANE, SPACE
 from rondo.rig.plane import LEFT_OUT, left_out_of, slip_step
 from rondo.rig.plane.damping import with_damping_below
@@ -334,3 +335,15 @@ def test_steps_are_a_whole_number_in_a_pass():
         for part, whole in ((step, interval), (interval, 1.7e-3)):
             assert whole / part == pytest.approx(round(whole / part), rel=1e-9)
         assert step <= stable / slip_step.FINER * (1 + 1e-9) and interval <= 1.7e-3 / slip_step.ROWS * (1 + 1e-9)
+
+
+def test_resistance_of_the_discretisation_is_told(tmp_path):
+    """A wheel without losses of its material: what is left is damping and the scheme."""
+    case, settings = files(tmp_path, PLANE_WHEEL.replace("stiffness = 2.0e-5", "stiffness = 1.0e-7"), RIG)
+    made = rig(case, "--rig", settings, "--quick", "--tests", "vertical,rolling-resistance", "-o", tmp_path / "rig")
+    share = np.abs(rondo.open_rig(tmp_path / "rig").tests["rolling-resistance"].table["scheme_share"]).max()
+    assert share > 0.05
+    told = f"the discretisation takes up to {100 * share:.0f} % of the power"
+    assert f"warning: rolling-resistance: {told}" in made.stderr
+    assert told in (tmp_path / "rig" / "report.html").read_text()
+    assert doubt_of("rolling-resistance", [{"status": "done", "scheme_share": -0.04}, {"status": "failed"}]) == ""

@@ -19,7 +19,7 @@ from ..studies.progress import Progress
 from .against_reading import read_measured
 from .blocks import MADE_OF, RESULTS, SWEEP, Bench, Block
 from .defaults import nominal, with_defaults
-from .findings import find
+from .findings import doubt_of, find
 from .keys import TOP
 from .plane import NOTES, WITHOUT_WIDTH, fmu_note, left_out_of
 from .plane.damping import lowest_of, with_damping_below
@@ -345,6 +345,7 @@ class Rig:
             told["csv"] = write_table(self.request.directory, name, rows, self.bench)
             told["tdx"] = write_channels(self.request.directory, name, rows, self.bench)
             told["figures"] = find(self.bench, name, rows)
+            told |= {"doubt": doubt} if (doubt := doubt_of(name, rows)) else {}
         self.write()
 
     def _has_ended(self, block: Block) -> bool:
@@ -385,7 +386,7 @@ class Rig:
                    if told["status"] == "left out" and name not in self.left_out]
         if self.request.fmu and self.fmu["status"] == FAILED:
             failed.append(f"tyre.fmu: failed: {self.fmu['reason']}")
-        for line in failed:
+        for line in failed + [f"{name}: {told['doubt']}" for name, told in self.tests.items() if told.get("doubt")]:
             _say(False, f"warning: {line}")
         return NUMERICAL if failed else 0
 

@@ -12,6 +12,7 @@ from .rows import done
 from .states import Row
 
 Found = dict[str, list[dict[str, Any]]]
+_LARGE_SHARE = 0.05  # of the discretisation in the power, above which rondo warns
 
 
 def find(bench: Bench, test: str, rows: Sequence[Row]) -> Found:
@@ -75,6 +76,15 @@ def _longitudinal(bench: Bench, rows: Sequence[Row]) -> Found:
 def _rolling_resistance(bench: Bench, rows: Sequence[Row]) -> Found:
     return {"coefficient": [{"load": row["load"], "pressure": row["pressure"], "speed": row["speed"], "value": row["coefficient"]}
                             for row in done(rows)]}
+
+
+def doubt_of(name: str, rows: Sequence[Row]) -> str:
+    """What is to be known of the rows of a test before they are used; "": nothing."""
+    share = max((abs(row.get("scheme_share") or 0.0) for row in done(rows)), default=0.0)
+    if name != "rolling-resistance" or share <= _LARGE_SHARE:
+        return ""
+    return (f"the discretisation takes up to {100 * share:.0f} % of the power, and resistances may be wrong by as much: "
+            "another samples_per_sector, more first; more sectors")
 
 
 def _relaxation(bench: Bench, rows: Sequence[Row]) -> Found:

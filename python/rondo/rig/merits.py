@@ -25,7 +25,7 @@ MERITS = {("vertical", "radial_stiffness"): ("Radial stiffness", 1e-3, "N/mm"),
           ("lateral", "conicity_force"): ("Conicity force", 1.0, "N"),
           ("longitudinal", "slip_stiffness"): ("Slip stiffness", 1e-3, "kN"),
           ("rolling-resistance", "coefficient"): ("Rolling resistance coefficient", 1.0, "N/kN"),
-          ("relaxation", "length"): ("Relaxation length", 1.0, "m"),
+          ("relaxation", "length"): ("Relaxation length, 63.2 % of the change", 1.0, "m"),
           **{("cleat", f"peak_to_peak_{force}"): (f"{force} over the cleat, peak to peak", 1.0, "N") for force in ("Fx", "Fz")},
           **{("road", f"rms_{force}"): (f"{force} on the road, standard deviation", 1.0, "N") for force in ("Fx", "Fz")},
           **{("modes", f"first_frequency_{state}"): (f"First natural frequency, {state}", 1.0, "Hz")

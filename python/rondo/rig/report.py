@@ -110,6 +110,7 @@ def _test(test: RigTest, drawn: str, per_metre: bool) -> str:
     said = paragraph(escaped(MEANINGS.get(test.name, "")))
     if status != FINISHED:
         said += note(f"Status: {status}{f': {reason}' if reason else ''}")
+    said += note(f"Note: {test.info['doubt']}") if test.info.get("doubt") else ""
     said += paragraph(escaped(test.info["note"])) if test.info.get("note") else ""
     said += _failures(test) + drawn
     if not test.table:

@@ -62,7 +62,7 @@ def sentence(kind: str, width: float | None) -> str:
 
 def fmu_note(width: float | None) -> str:
     """What the importer of tyre.fmu has to know."""
-    return ("It is of a width of 1 m. Its parameter `width` multiplies forces and masses: set it in the importer"
+    return ("It is of a width of 1 m. Its parameter width multiplies forces and masses: set it in the importer"
             + (f" to {width:g} m, the width of this rig." if width else ", to the width of the wheel in m."))
 
 
