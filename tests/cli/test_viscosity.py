@@ -300,7 +300,7 @@ history_interval = 1e-4
         none = ("--set", "material.region=[{layers = [3], loss_factor = 0}]")
         second = ("--set", "material.region=[{layers = [1], youngs_modulus = 1e7}, {layers = [3], loss_factor = 0.3}]")
         stiffened = ("--set", "material.stress_stiffening=centrifugal")
-        for words, key, what in (((*LOSS, *regions), "material.region[0]", "one spectrum"),
+        for words, key, what in (((*LOSS, *regions), "material.region[0]", "creep as a whole"),
                                  ((*LOSS, *none), "material.region[0]", "regions differ"),
                                  ((*LOSS, *second), "material.region[1]", "regions differ"),
                                  ((*LOSS, *stiffened), "material.stress_stiffening", "of the stress does not")):

@@ -40,6 +40,7 @@ NOT_RUN = [
     ("docs/performance.md", "cmake --preset bench"),
     ("docs/performance.md", "rondo run cases/ledge-smooth.toml --set disk.mesh.radial=577"),
     ("docs/performance.md", "/usr/bin/python3 bench/steady.py"),
+    ("docs/performance.md", "rondo run cases/tyre-cornering.toml --threads 1"),
     ("docs/performance.md", "cmake --build build/release --target bench_exceptions"),
     ("docs/performance.md", "cmake --build build/release --target bench_bodies"),
     ("docs/performance.md", "cmake --build build/release --target bench_rubber"),
