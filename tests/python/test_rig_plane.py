@@ -6,7 +6,7 @@ import types
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from rig_wheels import files, rig
+from rig_wheels import WHEEL, files, rig
 
 import rondo
 from rondo import files as exchanged
@@ -23,30 +23,9 @@ from rondo.rig.tyre import read_tyre
 
 WIDTH, LOAD = 0.1, 4000.0  # m, N
 # Without lateral contraction a wheel with a width is the plane one, times the width.
-PLANE_WHEEL = """schema = 1
-title = "Plane wheel"
-[disk]
-outer_radius = 0.30
-inner_radius = 0.20
-[disk.mesh]
-radial = 2
-circumferential = 90
-[material]
-youngs_modulus = 5.0e6
-poissons_ratio = 0.0
-density = 1100.0
-[damping]
-stiffness = 2.0e-5
-[motion]
-angular_velocity = 40.0
-[ground]
-profile = "flat"
-friction = 0.8
-[analysis]
-kind = "steady-rolling"
-load = 4.0e4
-torque = 0.0
-"""
+PLANE_WHEEL = (WHEEL.replace("width = 0.10\n", "").replace("circumferential = 60\naxial = 4", "circumferential = 90")
+               .replace("poissons_ratio = 0.3", "poissons_ratio = 0.0").replace("load = 4000.0", "load = 4.0e4")
+               .replace("samples_per_sector = 2\n", ""))
 SPACE_WHEEL = PLANE_WHEEL.replace("inner_radius = 0.20", f"inner_radius = 0.20\nwidth = {WIDTH}").replace(
     "radial = 2", "radial = 2\naxial = 1").replace("load = 4.0e4", f"load = {LOAD}\nsamples_per_sector = 4")
 RIG = f"schema = 1\nwidth = {WIDTH}\nloads = [2000.0, 4000.0]\n[cleat]\nmodes = 20\n[road]\nlength = 2.0\nmodes = 20\n"

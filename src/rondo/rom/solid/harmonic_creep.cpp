@@ -5,6 +5,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
 namespace {
@@ -13,16 +14,11 @@ using Complexes = std::complex<double>;
 using Eigen::Index;
 using Numbers = CreepMemory::Numbers;
 
-/// A real field has harmonics 0 and, of an even number of sectors, N/2 once, and all others twice.
-double weight_of(std::size_t k, std::size_t sectors) noexcept {
-  return k == 0 || 2 * k == sectors ? 1.0 : 2.0;
-}
-
-/// Of each harmonic: products of amplitudes times these are those of the nodes.
-Numbers weights_of(std::size_t sectors) {
+/// Weights of the harmonics: the sum of products of amplitudes, each times its weight, is the sum
+/// of products over all nodes.
+Numbers weights_of(int sectors) {
   Numbers weights;
-  for (std::size_t k = 0; k <= sectors / 2; ++k)
-    weights.push_back(static_cast<double>(sectors) * weight_of(k, sectors));
+  for (int k = 0; k <= sectors / 2; ++k) weights.push_back(sectors * harmonic_weight(k, sectors));
   return weights;
 }
 
@@ -43,8 +39,8 @@ HarmonicCreep::HarmonicCreep(std::span<const CreepTerm> terms,
                              std::span<const RingResidual> later, std::span<const Complex> turn,
                              double stiffness_damping, double dt)
     : turn_(turn),
-      memory_(terms, at_once.size(), at(2 * at_once.front().size), weights_of(turn.size()),
-              stiffness_damping, dt) {
+      memory_(terms, at_once.size(), at(2 * at_once.front().size),
+              weights_of(static_cast<int>(turn.size())), stiffness_damping, dt) {
   RONDO_DEMAND(at_once.size() == later.size(), at_once.size(), later.size());
   for (const RingResidual& table : at_once) tables_[0].push_back(harmonics_of(table));
   for (const RingResidual& table : later) tables_[1].push_back(harmonics_of(table));
@@ -121,7 +117,7 @@ void HarmonicCreep::write(const RingAmplitudes& of, int sector,
   const auto n = static_cast<long long>(turn_.size());
   std::ranges::fill(out, 0.0);
   for (Index k = 0; k < of.cols(); ++k) {
-    const double weight = weight_of(at(k), turn_.size());
+    const double weight = harmonic_weight(static_cast<int>(k), static_cast<int>(n));
     const Complex e = turn_[at(k * sector % n)];
     const double re = weight * e.re, im = weight * e.im;
     const Complexes* from = of.data() + k * of.rows();

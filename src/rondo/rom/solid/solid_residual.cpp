@@ -11,6 +11,7 @@
 #include "rondo/core/index.hpp"
 #include "rondo/rom/solid/solid_dynamic.hpp"
 #include "rondo/rom/wheel/creep/creep_pair.hpp"
+#include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
 namespace {
@@ -79,7 +80,7 @@ void sum_lags(const SolidRing& ring, std::span<const MatrixXcd> by_harmonic, Rin
     Eigen::Map<Eigen::MatrixXd> lag(out.blocks.data() + d * size * size, size, size);
     lag.setZero();
     for (int k = 0; k <= n / 2; ++k) {
-      const double weight = (k == 0 || 2 * k == n ? 1.0 : 2.0) / n;
+      const double weight = harmonic_weight(k, n) / n;
       const Complexes turn =
           weight * std::polar(1.0, 2.0 * std::numbers::pi *
                                        static_cast<int>(static_cast<long long>(k) * d % n) / n);

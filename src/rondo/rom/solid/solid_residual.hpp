@@ -16,7 +16,7 @@ namespace rondo::rom {
                                           std::span<const RingHarmonic> harmonics,
                                           double spin_squared);
 
-/// The same of a viscous ring, as creep_residual().
+/// Finds the tables that creep_residual() finds for a viscous disk, for a viscous ring.
 [[nodiscard]] CreepResidual solid_creep_residual(const SolidRing& ring,
                                                  std::span<const RingHarmonic> harmonics,
                                                  double spin_squared,

@@ -202,7 +202,7 @@ void SolidWheel::write_field(double angle, const Eigen::VectorXd& constant,
     Eigen::VectorXd u = constant;
     for (Index k = 0; k < half; ++k) {
       const Complex turned = ring_.stiffness.turn[at(static_cast<long long>(k) * j % n)];
-      const double weight = k == 0 || 2 * k == n ? 1.0 : 2.0;
+      const double weight = harmonic_weight(static_cast<int>(k), n);
       u += weight * (turned.re * amplitude.col(k).real() - turned.im * amplitude.col(k).imag());
     }
     for (Index a = 0; a < ring_.n_rows(); a += 3)

@@ -30,7 +30,7 @@ class WindowCompliance {
   }
 
  private:
-  /// Of both matrices.
+  /// Both matrices have so many rows.
   [[nodiscard]] Eigen::Index rows() const noexcept { return (2 * sectors_ - 1) * size_; }
 
   Eigen::Index size_ = 1, sectors_ = 0;

@@ -14,6 +14,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/rom/wheel/creep/creep_pair.hpp"
+#include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
 namespace {
@@ -149,7 +150,7 @@ class Lags {
     const MatrixXcd surface = g(parts_.contact, Eigen::all);
     g(parts_.contact, Eigen::all) = 0.5 * (surface + surface.adjoint());
     const int n = out_.n_sectors;
-    const double weight = (k == 0 || 2 * k == n ? 1.0 : 2.0) / n;
+    const double weight = harmonic_weight(k, n) / n;
     for (int d = 0; d < n; ++d) lag(d) += weight * (wave(n, k * d % n) * g).real();
   }
   /// After all harmonics: the rows of the contact nodes as a table of their own.

@@ -19,6 +19,12 @@ inline double real_product(Complex a, const std::complex<double>& b) noexcept {
   return a.re * b.real() - a.im * b.imag();
 }
 
+/// How often harmonic k stands in the sum over all waves of a real field on N sectors: harmonic 0
+/// and, of an even N, N/2 stand in it once, all others twice.
+constexpr double harmonic_weight(int k, int n) noexcept {
+  return k == 0 || 2 * k == n ? 1.0 : 2.0;
+}
+
 /// Calls work(harmonic, e^{ikψ}) for all harmonics, whose k ascend.
 template <class Work>
 void for_waves(std::span<const RingHarmonic> harmonics, Complex turn, Work&& work) {

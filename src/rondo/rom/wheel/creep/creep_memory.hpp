@@ -50,19 +50,20 @@ class CreepMemory {
   /// Moves on by a step. Allocates nothing.
   void step() noexcept;
 
-  /// Displacement by a table, and what will be left of it after a step without new forces.
+  /// Finds the displacement by a table, and what will be left of it after a step without new
+  /// forces.
   [[nodiscard]] const Numbers& now(std::size_t table) const noexcept { return now_[table]; }
   [[nodiscard]] const Numbers& left(std::size_t table) const noexcept { return left_[table]; }
-  /// What a new force does to the displacement at the end of its step: shares of both tables.
+  /// A new force acts on the displacement at the end of its step by these shares of both tables.
   [[nodiscard]] double new_at_once() const noexcept { return new_at_once_; }
   [[nodiscard]] double new_later() const noexcept { return new_later_; }
-  /// The same of a force that has always been there.
+  /// A force that has always been there acts on the displacement by these shares of both tables.
   [[nodiscard]] double held_at_once() const noexcept { return terms_.front().share; }
   [[nodiscard]] double held_later() const noexcept { return 1.0 - terms_.front().share; }
 
-  /// Of the last step.
+  /// Finds the energies of the last step.
   [[nodiscard]] CreepEnergy energy(const TableShares& shares) const noexcept;
-  /// Stored at its end.
+  /// Finds what is stored at its end.
   [[nodiscard]] double stored(const TableShares& shares) const noexcept;
 
   /// One number of the lagging forces by their shares: of the first term, and of all others.
