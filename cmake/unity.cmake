@@ -7,7 +7,7 @@
 # CMake can do this by itself (CMAKE_UNITY_BUILD), but its batches name their sources by absolute
 # paths: a compiler cache then finds nothing in another clone.
 option(RONDO_UNITY "Compile several sources as one: a first build takes half of the time" ON)
-set(RONDO_BATCH 10 CACHE STRING "How many sources are compiled as one")
+set(RONDO_BATCH 20 CACHE STRING "How many sources are compiled as one")
 
 # Sets RESULT to true where the source can be compiled with others: it is a file of the project, and it
 # has no flags or definitions of its own (kernels have one file for each instruction set).

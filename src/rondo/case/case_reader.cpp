@@ -130,6 +130,13 @@ Case read_source(const std::filesystem::path& file, CaseSource source) {
 
 }  // namespace
 
+Case::Case() = default;
+Case::~Case() = default;
+Case::Case(const Case&) = default;
+Case::Case(Case&&) noexcept = default;
+Case& Case::operator=(const Case&) = default;
+Case& Case::operator=(Case&&) noexcept = default;
+
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& settings) {
   return read_source(file, load_case(file, settings));
 }

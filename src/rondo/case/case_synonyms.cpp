@@ -4,11 +4,11 @@
 namespace rondo::study {
 namespace {
 
-constexpr std::string_view load =
+constexpr std::string_view load_keys =
     "a load on the rim is rim.force_y, where [rim] has free = [\"height\"]; for a crush there is "
     "analysis.depth, and [[load.pressure]] presses on a curve";
 
-constexpr std::string_view yaw =
+constexpr std::string_view yaw_keys =
     "in steady rolling motion.turn_slip is the yaw rate over the speed; in steps of time the wheel "
     "does not yaw, and motion.slip_angle may be a table";
 
@@ -50,8 +50,8 @@ constexpr Synonym synonyms[] = {
     {"duration", "time.end"},
     {"t_end", "time.end"},
     {"radius", "disk.outer_radius"},
-    {"yaw", "", yaw},
-    {"yaw_rate", "", yaw},
+    {"yaw", "", yaw_keys},
+    {"yaw_rate", "", yaw_keys},
     {"curvature", "motion.turn_slip"},
     {"path_curvature", "motion.turn_slip"},
     {"spin_slip", "motion.turn_slip"},
@@ -61,11 +61,11 @@ constexpr Synonym synonyms[] = {
     {"inclination", "motion.camber"},
     {"camber_angle", "motion.camber"},
     {"grooves", "disk.tread.circumferential_grooves"},
-    {"load", "", load},
-    {"normal_load", "", load},
-    {"vertical_load", "", load},
-    {"force", "", load},
-    {"weight", "", load},
+    {"load", "", load_keys},
+    {"normal_load", "", load_keys},
+    {"vertical_load", "", load_keys},
+    {"force", "", load_keys},
+    {"weight", "", load_keys},
     {"drag", "rim.force_x"},
     {"moment", "rim.torque"},
     {"driving_torque", "rim.torque"},

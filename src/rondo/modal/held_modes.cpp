@@ -2,7 +2,6 @@
 #include "rondo/modal/held_modes.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/dense.hpp"
 #include "rondo/core/process_wide.hpp"
 #include "rondo/fem/harmonics.hpp"
 #include "rondo/fem/solid/solid_sector.hpp"
@@ -117,9 +117,8 @@ class HeldProblem {
     const CyclicInverse inverse(harmonics_, sectors(), sigma);
     if (!inverse.found()) return std::nullopt;
     if (rows_.empty()) return inverse.negative();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> of(compliance(inverse, nullptr),
-                                                     Eigen::EigenvaluesOnly);
-    return inverse.negative() - static_cast<int>((of.eigenvalues().array() < 0.0).count());
+    const VectorXd values = eigenvalues_of(compliance(inverse, nullptr));
+    return inverse.negative() - static_cast<int>((values.array() < 0.0).count());
   }
   /// φ = M^-½ w in the axes of X.
   [[nodiscard]] Mode mode_of(const VectorXd& w, double omega) const {

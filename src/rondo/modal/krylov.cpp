@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/modal/krylov.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/dense.hpp"
 
 namespace rondo::modal {
 namespace {
@@ -107,10 +107,10 @@ Ritz Krylov<Scalar>::ritz() const {
   Eigen::MatrixXcd h = projected_.topLeftCorner(done_, done_).template cast<std::complex<double>>();
   if (op_.skew) h *= std::complex<double>(0.0, 1.0);
   const Eigen::MatrixXcd hermitian = 0.5 * (h + h.adjoint());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> solver(hermitian);
+  const Axes<Eigen::MatrixXcd> axes = axes_of(hermitian);
   Ritz out;
-  out.value = solver.eigenvalues().reverse();
-  out.weights = solver.eigenvectors().rowwise().reverse();
+  out.value = axes.values.reverse();
+  out.weights = axes.vectors.rowwise().reverse();
   const Eigen::MatrixXcd rest =
       projected_.block(done_, 0, all_ - done_, done_).template cast<std::complex<double>>();
   out.residual = (rest * out.weights).colwise().norm().transpose();

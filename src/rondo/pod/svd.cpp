@@ -54,22 +54,6 @@ void multiply_in_place(Out m, const In& t) {
   }
 }
 
-Svd thin_svd(Eigen::MatrixXd& a) {
-  const Index k = std::min(a.rows(), a.cols());
-  Svd out{Eigen::VectorXd(k), Eigen::MatrixXd(a.rows(), k), {}};
-  if (k == 0) {
-    out.v.resize(a.cols(), 0);
-    return out;
-  }
-  Eigen::MatrixXd vt(k, a.cols());
-  const int info =
-      LAPACKE_dgesdd(LAPACK_COL_MAJOR, 'S', length(a.rows()), length(a.cols()), a.data(), stride(a),
-                     out.sigma.data(), out.u.data(), stride(out.u), vt.data(), stride(vt));
-  RONDO_DEMAND(info == 0, info, a.rows(), a.cols());
-  out.v = vt.transpose();
-  return out;
-}
-
 Eigen::VectorXd factor_qr(Out a) {
   Eigen::VectorXd factors(std::min(a.rows(), a.cols()));
   if (factors.size() == 0) return factors;

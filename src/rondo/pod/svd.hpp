@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  The dense algebra of the decompositions by OpenBLAS and LAPACK: products, Householder QR,
-/// small singular value decompositions. Used by this module and by the reduced steps.
+/// @file  The dense algebra of the decompositions by OpenBLAS and LAPACK: products and Householder
+/// QR. Used by this module and by the reduced steps.
 #pragma once
 #include <Eigen/Core>
+
+#include "rondo/core/dense.hpp"
 
 namespace rondo::pod {
 
@@ -17,14 +19,6 @@ void multiply(const In& a, const In& b, Out c, double factor = 1.0, double scale
 void multiply_transposed(const In& a, const In& b, Out c);
 /// m ← m t, in place: t has at most as many columns as m, and the result fills the first of m's.
 void multiply_in_place(Out m, const In& t);
-
-struct Svd {
-  Eigen::VectorXd sigma;  ///< (k) descending
-  Eigen::MatrixXd u;      ///< (rows, k)
-  Eigen::MatrixXd v;      ///< (columns, k)
-};
-/// Thin SVD by gesdd: errors of sigma are a few ε σ_1. Destroys `a`. @pre all numbers are finite
-[[nodiscard]] Svd thin_svd(Eigen::MatrixXd& a);
 
 /// Q R in place: R in the upper triangle, the reflectors of Q below it. @return factors of these
 [[nodiscard]] Eigen::VectorXd factor_qr(Out a);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/statics/condensed_contact.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "rondo/contact/residual.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/dense.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::statics {
@@ -69,7 +69,7 @@ Eigen::VectorXd solve_directly(const CondensedProblem& p, const Findings& found)
     a.col(k) = p.compliance.col(column)(rows);
     if (edge(column) != 0.0) a.col(k) += edge(column) * p.compliance.col(column + 1)(rows);
   }
-  const Eigen::VectorXd part = a.partialPivLu().solve(-p.free(rows));
+  const Eigen::VectorXd part = solve(a, -p.free(rows));
   for (Index k = 0; k < size; ++k) {
     const Index row = rows[at(k)];
     r[row] = part[k];

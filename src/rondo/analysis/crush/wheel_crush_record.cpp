@@ -10,31 +10,31 @@
 namespace rondo::study {
 namespace {
 
-using R = WheelCrushRow;
+using W = WheelCrushRow;
 constexpr std::array wheel_columns{
-    Column<R>{"depth_m", "m",
+    Column<W>{"depth_m", "m",
               "of the center below first touch; with `force_y` the curve of force over depth; the "
               "slide is `center_x_m`",
-              [](const R& r) { return r.state.depth; }},
-    Column<R>{"pressure_max_pa", "Pa",
+              [](const W& r) { return r.state.depth; }},
+    Column<W>{"pressure_max_pa", "Pa",
               "largest of all contact nodes, over the deformed surface as in contact.csv",
-              [](const R& r) { return r.sums.pressure; }},
-    Column<R>{"shear_max_pa", "Pa", "likewise", [](const R& r) { return r.sums.shear; }},
-    Column<R>{"contact_residual", "1", "of the contact law, from the whole field",
-              [](const R& r) { return r.state.residual; }},
-    Column<R>{"newton_steps", "1", "of the contact solver, in the increment",
-              [](const R& r) { return static_cast<double>(r.state.solution.effort.newton_steps); }},
-    Column<R>{"balance_residual", "1",
+              [](const W& r) { return r.sums.pressure; }},
+    Column<W>{"shear_max_pa", "Pa", "likewise", [](const W& r) { return r.sums.shear; }},
+    Column<W>{"contact_residual", "1", "of the contact law, from the whole field",
+              [](const W& r) { return r.state.residual; }},
+    Column<W>{"newton_steps", "1", "of the contact solver, in the increment",
+              [](const W& r) { return static_cast<double>(r.state.solution.effort.newton_steps); }},
+    Column<W>{"balance_residual", "1",
               "largest force by which a node is out of balance, over the load; 0 where the forces "
               "of the wheel are linear",
-              [](const R& r) { return r.state.effort.residual; }},
-    Column<R>{"contact_problems", "1",
+              [](const W& r) { return r.state.effort.residual; }},
+    Column<W>{"contact_problems", "1",
               "problems of contact that were solved until the forces balanced; 0 where they are "
               "linear",
-              [](const R& r) { return static_cast<double>(r.state.effort.turns); }},
+              [](const W& r) { return static_cast<double>(r.state.effort.turns); }},
 };
 
-HistoryRecord record_of(const R& r) {
+HistoryRecord record_of(const W& r) {
   const statics::StandingState& s = r.state;
   const statics::RollingForces& f = s.solution.forces;
   HistoryRecord h;
@@ -135,7 +135,7 @@ void WheelCrushRecord::fill(const WheelCrushRow& r, const std::vector<Vec3>& bef
 
 std::vector<ColumnLabel> wheel_crush_columns() {
   std::vector<ColumnLabel> columns = history_labels({.solid = true});
-  for (ColumnLabel& label : labels_of(std::span<const Column<R>>(wheel_columns)))
+  for (ColumnLabel& label : labels_of(std::span<const Column<W>>(wheel_columns)))
     columns.push_back(std::move(label));
   columns.front().unit.assign(1, '1');
   return columns;
@@ -143,7 +143,7 @@ std::vector<ColumnLabel> wheel_crush_columns() {
 
 void append_row(const WheelCrushRow& row, std::vector<double>& rows) {
   append_history({.solid = true}, record_of(row), rows);
-  append_values(std::span<const Column<R>>(wheel_columns), row, rows);
+  append_values(std::span<const Column<W>>(wheel_columns), row, rows);
 }
 
 std::vector<io::Series> wheel_crush_series() {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double round_off = 1e-16;
 constexpr int most_steps = 60;
-constexpr double first_shift = 1e-4, least_shift = 1e-18, largest_shift = 1e6;
+constexpr double first_marquardt = 1e-4, least_marquardt = 1e-18, largest_marquardt = 1e6;
 
 /// P and its derivative at z = (x, y): the identity, 0, or those of a point of the cone's side.
 struct Projection {
@@ -121,9 +121,9 @@ int least_squares(const SpatialCoupled& p, double share, std::span<Vec3> impulse
   Equations equations(p, share, work);
   work.trial.resize(n);
   const double enough = round_off * scale_of(p);
-  double shift = first_shift, squared = equations.evaluate(impulse, true);
+  double shift = first_marquardt, squared = equations.evaluate(impulse, true);
   int steps = 0;
-  for (; steps < most_steps && squared > enough * enough && shift < largest_shift; ++steps) {
+  for (; steps < most_steps && squared > enough * enough && shift < largest_marquardt; ++steps) {
     if (!find_step(n, shift, work)) {
       shift *= 10.0;
       continue;
@@ -134,7 +134,7 @@ int least_squares(const SpatialCoupled& p, double share, std::span<Vec3> impulse
     const double next = equations.evaluate(work.trial, false);
     if (next < squared) {
       std::ranges::copy(work.trial, impulse.begin());
-      shift = std::max(shift * (next < 0.25 * squared ? 0.01 : 0.3), least_shift);
+      shift = std::max(shift * (next < 0.25 * squared ? 0.01 : 0.3), least_marquardt);
     } else {
       shift *= 10.0;
     }

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/rom/solid/solid_dynamic.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/dense.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::rom {
@@ -43,7 +42,7 @@ struct Inertia {
 /// What forces do less what the modes do by them.
 MatrixXcd without_modes(MatrixXcd u, const RingHarmonic* h, const MatrixXcd& modes,
                         const MatrixXcd& forces) {
-  if (h) u -= h->shapes * modes.partialPivLu().solve(h->shapes.adjoint() * forces);
+  if (h) u -= h->shapes * solve(modes, MatrixXcd(h->shapes.adjoint() * forces));
   return u;
 }
 
@@ -128,8 +127,7 @@ bool StandingAnswer::has_meaning() const {
   if (factor_->info() != Eigen::Success) return false;
   Index below = (factor_->vectorD().real().array() < 0.0).count();
   if (h_ && h_->squares.size() > 0) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(modes_, Eigen::EigenvaluesOnly);
-    below -= (solver.eigenvalues().array() < 0.0).count();
+    below -= (eigenvalues_of(modes_).array() < 0.0).count();
   }
   return below == 0;
 }

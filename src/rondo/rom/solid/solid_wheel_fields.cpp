@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// Fields of all nodes: the start of a run from them, and those after a step.
-#include <Eigen/LU>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "rondo/core/dense.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/model/solid/wheel_ground.hpp"
 #include "rondo/rom/solid/solid_wheel.hpp"
@@ -44,7 +44,7 @@ void SolidWheel::start(const SolidMotion& m) {
     Matrix stiff = -spin * spin * of.planar;
     stiff.diagonal().array() += of.squares.array();
     modes_[h].state.head(of.squares.size()) =
-        stiff.partialPivLu().solve(Vector(spin * spin * of.reference + of.load));
+        rondo::solve(stiff, Vector(spin * spin * of.reference + of.load));
   }
   move_contact();
   find_near(m);
@@ -98,7 +98,7 @@ void SolidWheel::press_at_start(const SolidMotion& m, std::span<const Vec3> u) {
         g.block<3, 3>(row, static_cast<Index>(3 * j)) = held(to.node, from.node);
       }
     }
-    forces = g.partialPivLu().solve(by);
+    forces = rondo::solve(g, by);
     std::vector<std::size_t> pressed;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       Near& near = near_[nodes[i]];

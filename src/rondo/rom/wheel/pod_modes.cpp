@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/rom/wheel/pod_modes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <functional>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/dense.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::rom {
@@ -64,9 +64,9 @@ PodModes FieldHarmonics::modes(int wanted) const {
   std::vector<Mode> all;
   std::vector<MatrixXcd> vectors;
   for (std::size_t k = 0; k < sums_.size(); ++k) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(sums_[k]);
-    vectors.push_back(solver.eigenvectors());
-    for (const double square : solver.eigenvalues())
+    Axes<MatrixXcd> axes = axes_of(sums_[k]);
+    vectors.push_back(std::move(axes.vectors));
+    for (const double square : axes.values)
       all.push_back({ring_.n_sectors() * weight_of(k) * square, k});
   }
   std::ranges::stable_sort(all, std::greater<>(), &Mode::energy);

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/rom/wheel/ring_harmonics.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -12,6 +9,7 @@
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/dense.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/rom/wheel/creep/creep_pair.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
@@ -73,7 +71,7 @@ struct Condensed {
   Condensed(const Ring& ring, const Parts& parts, int k) {
     const MatrixXcd all = stiffness_of(ring, k);
     const MatrixXcd k_ci = all(parts.contact, parts.inner);
-    follow = -MatrixXcd(all(parts.contact, parts.contact)).llt().solve(k_ci);
+    follow = -solve_definite(all(parts.contact, parts.contact), k_ci);
     root = masses(ring)(parts.inner).cwiseSqrt();
     const MatrixXcd condensed = all(parts.inner, parts.inner) + k_ci.adjoint() * follow;
     const VectorXd scale = root.cwiseInverse();
@@ -93,16 +91,15 @@ struct Condensed {
 
 RingHarmonic harmonic_of(const Ring& ring, const Parts& parts, int k, Index n_modes) {
   const Condensed c(ring, parts, k);
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(c.matrix);
-  return make_harmonic(ring, k, solver.eigenvalues().head(n_modes),
-                       c.all_rows(ring, parts, solver.eigenvectors().leftCols(n_modes)));
+  const Axes<MatrixXcd> axes = axes_of(c.matrix);
+  return make_harmonic(ring, k, axes.values.head(n_modes),
+                       c.all_rows(ring, parts, axes.vectors.leftCols(n_modes)));
 }
 
 /// How many eigenvalues of a Hermitian matrix are negative.
 Index n_negative(const MatrixXcd& z) {
   if (z.size() == 0) return 0;
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(z, Eigen::EigenvaluesOnly);
-  return (solver.eigenvalues().array() < 0.0).count();
+  return (eigenvalues_of(z).array() < 0.0).count();
 }
 
 /// Z_k of the ring and of the modes, at the rate ks and the spin s.
@@ -130,8 +127,8 @@ struct Dynamic {
   [[nodiscard]] bool has_meaning() const { return n_negative(ring) == n_negative(modes); }
   /// (rows, 2C) What unit forces on the contact nodes do beyond the modes.
   [[nodiscard]] MatrixXcd beyond(const RingHarmonic* h, const MatrixXcd& forces) const {
-    MatrixXcd g = ring.partialPivLu().solve(forces);
-    if (h) g -= h->shapes * modes.partialPivLu().solve(h->contact.adjoint());
+    MatrixXcd g = solve(ring, forces);
+    if (h) g -= h->shapes * solve(modes, MatrixXcd(h->contact.adjoint()));
     return g;
   }
 };
@@ -181,8 +178,8 @@ MatrixXcd unit_forces(const Ring& ring, const Parts& parts) {
 /// (rows) What the spin does beyond the modes. @param still of harmonic 0
 VectorXd by_spin(const Ring& ring, const RingHarmonic* h, const Dynamic& still, double square) {
   const VectorXcd pull = square * (masses(ring).asDiagonal() * reference(ring));
-  VectorXcd u = still.ring.partialPivLu().solve(pull);
-  if (h) u -= h->shapes * still.modes.partialPivLu().solve(square * h->reference);
+  VectorXcd u = solve(still.ring, pull);
+  if (h) u -= h->shapes * solve(still.modes, VectorXcd(square * h->reference));
   return u.real();
 }
 
@@ -273,15 +270,13 @@ RingHarmonic ritz_harmonic(const Ring& ring, int k, const MatrixXcd& shapes) {
   const Parts parts(ring);
   const Condensed c(ring, parts, k);
   const MatrixXcd reduced = shapes.adjoint() * c.matrix * shapes;
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(0.5 * (reduced + reduced.adjoint()));
-  return make_harmonic(ring, k, solver.eigenvalues(),
-                       c.all_rows(ring, parts, shapes * solver.eigenvectors()));
+  const Axes<MatrixXcd> axes = axes_of(MatrixXcd(0.5 * (reduced + reduced.adjoint())));
+  return make_harmonic(ring, k, axes.values, c.all_rows(ring, parts, shapes * axes.vectors));
 }
 
 VectorXd frequencies_of(const Ring& ring, int k) {
   const Condensed c(ring, Parts(ring), k);
-  const Eigen::SelfAdjointEigenSolver<MatrixXcd> solver(c.matrix, Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  return eigenvalues_of(c.matrix).cwiseMax(0.0).cwiseSqrt();
 }
 
 std::vector<RingHarmonic> ring_modes(const Ring& ring, const ModeChoice& choice) {

@@ -2,11 +2,11 @@
 /// Fields of all nodes: the start of a run from them, and those after a step.
 #include "rondo/rom/wheel/ring_wheel.hpp"
 
-#include <Eigen/LU>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "rondo/core/dense.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
 
@@ -92,7 +92,7 @@ Eigen::VectorXd RingWheel::forces_that_hold(std::span<const std::size_t> nodes) 
       g.block<2, 2>(row, static_cast<Index>(2 * j)) << b[0], b[1], b[2], b[3];
     }
   }
-  return g.partialPivLu().solve(moved);
+  return rondo::solve(g, moved);
 }
 
 /// Forces of the ground at the start, of nodes that it presses.

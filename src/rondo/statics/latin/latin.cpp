@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/statics/latin/latin.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "rondo/contact/residual.hpp"
 #include "rondo/core/contract.hpp"
+#include "rondo/core/dense.hpp"
 
 namespace rondo::statics {
 namespace {
@@ -27,8 +26,7 @@ double law_residual_of(const LatinProblem& p, const LatinPair& pair, Index j, In
 }  // namespace
 
 double chosen_direction(const MatrixXd& compliance, bool slides) {
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<MatrixXd>(compliance, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values = eigenvalues_of(compliance);
   RONDO_DEMAND(values[0] > 0.0, values[0]);
   const double k = 1.0 / (std::sqrt(values[0]) * std::sqrt(values[values.size() - 1]));
   return slides ? 2.0 / 3.0 * k : k;
@@ -81,7 +79,7 @@ CondensedElasticity::CondensedElasticity(const MatrixXd& compliance, double dire
     : direction_(direction) {
   const Index size = compliance.rows();
   const MatrixXd a = MatrixXd::Identity(size, size) + direction * compliance;
-  stiffened_ = a.llt().solve(compliance);
+  stiffened_ = solve_definite(a, compliance);
 }
 
 void CondensedElasticity::solve(const MatrixXd& load, double /*indicator*/,

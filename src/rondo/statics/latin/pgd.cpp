@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/statics/latin/pgd.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/dense.hpp"
 #include "rondo/core/index.hpp"
 
 namespace rondo::statics {
@@ -50,12 +49,6 @@ VectorXd on_contact(const VectorXd& field, const std::vector<int>& nodes) {
   return h;
 }
 
-using ThinSvd = Eigen::BDCSVD<MatrixXd>;
-
-ThinSvd thin_svd(const MatrixXd& m) {
-  return ThinSvd(m, Eigen::ComputeThinU | Eigen::ComputeThinV);
-}
-
 }  // namespace
 
 Fields orthonormal(const Fields& fields) {
@@ -63,11 +56,10 @@ Fields orthonormal(const Fields& fields) {
   const MatrixXd work = fields.contact.transpose() * fields.load;
   const VectorXd scale = work.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
   const MatrixXd even = scale.asDiagonal() * (0.5 * (work + work.transpose())) * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(even);
-  const VectorXd& values = solver.eigenvalues();  // ascending
+  const auto [values, vectors] = axes_of(even);
   Index kept = 0;
   for (const double value : values) kept += value > dependent * values[values.size() - 1] ? 1 : 0;
-  const MatrixXd turn = scale.asDiagonal() * solver.eigenvectors().rightCols(kept) *
+  const MatrixXd turn = scale.asDiagonal() * vectors.rightCols(kept) *
                         values.tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
   return {fields.field * turn, fields.contact * turn, fields.load * turn};
 }
@@ -157,14 +149,14 @@ void Pgd::enrich(const MatrixXd& load, double indicator) {
 }
 
 void Pgd::downsize(double indicator) {
-  const ThinSvd svd = thin_svd(temporal_);
-  const VectorXd& sigma = svd.singularValues();
+  const Svd svd = thin_svd(temporal_);
+  const VectorXd& sigma = svd.sigma;
   Index kept = 0;
   while (kept < sigma.size() && sigma[kept] >= 0.3 * options_.downsizing * indicator * sigma[0])
     ++kept;
   kept = std::max<Index>(kept, 1);
-  const MatrixXd turn = svd.matrixV().leftCols(kept);
-  temporal_ = svd.matrixU().leftCols(kept) * sigma.head(kept).asDiagonal();
+  const MatrixXd turn = svd.v.leftCols(kept);
+  temporal_ = svd.u.leftCols(kept) * sigma.head(kept).asDiagonal();
   contact_ *= turn;
   load_ *= turn;
   rotation_ *= turn;
@@ -208,14 +200,14 @@ Index values_kept(const VectorXd& sigma, double share) {
 }
 
 Separated Pgd::separated(double share) const {
-  const ThinSvd svd = thin_svd(temporal_);
-  const VectorXd& sigma = svd.singularValues();
-  const Index kept = values_kept(sigma, share);
-  const MatrixXd turn = svd.matrixV().leftCols(kept);
+  MatrixXd destroyed = temporal_;
+  const Svd svd = thin_svd(destroyed);
+  const Index kept = values_kept(svd.sigma, share);
+  const MatrixXd turn = svd.v.leftCols(kept);
   Separated s;
   s.modes = {solved_.field * (rotation_ * turn), contact_ * turn, load_ * turn};
-  s.sigma = sigma.head(kept);
-  s.temporal = svd.matrixU().leftCols(kept);
+  s.sigma = svd.sigma.head(kept);
+  s.temporal = svd.u.leftCols(kept);
   return s;
 }
 

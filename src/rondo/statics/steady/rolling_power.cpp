@@ -10,13 +10,13 @@ namespace {
 using Eigen::Index;
 
 /// A scheme below this share of load times speed is round-off.
-constexpr double round_off = 1e-12;
+constexpr double round_off_of_sums = 1e-12;
 
 }  // namespace
 
 void find_scheme_shares(double carried, RollingPower& p) noexcept {
   const double scheme = std::abs(p.scheme);
-  if (!(scheme > round_off * carried)) return;
+  if (!(scheme > round_off_of_sums * carried)) return;
   const double largest = std::max({std::abs(p.drive), p.damping(), std::abs(p.friction)});
   p.scheme_share = scheme / largest;
   p.scheme_over_load = scheme / carried;

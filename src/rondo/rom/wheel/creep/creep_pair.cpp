@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "rondo/rom/wheel/creep/creep_pair.hpp"
 
-#include <Eigen/Eigenvalues>
+#include "rondo/core/dense.hpp"
 
 namespace rondo::rom {
 
@@ -13,9 +13,7 @@ CreepPair creep_pair(const CreepLags& lags, const Eigen::MatrixXcd& ahead,
 }
 
 bool is_semidefinite(const Eigen::MatrixXcd& a) {
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(
-                                     0.5 * (a + a.adjoint()), Eigen::EigenvaluesOnly)
-                                     .eigenvalues();
+  const Eigen::VectorXd values = eigenvalues_of(Eigen::MatrixXcd(0.5 * (a + a.adjoint())));
   return values.minCoeff() >= -1e-9 * values.maxCoeff();
 }
 
