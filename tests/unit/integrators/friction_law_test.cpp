@@ -77,9 +77,9 @@ double largest_error(double dt) {
 
 }  // namespace
 
-/// v²/2g = ∫ μ dx, over what is left and behind the ice.
+/// v²/2g = ∫ μ dx, over what is left and behind the ice. The edges are met to a step: 3 m/s dt.
 TEST(FrictionLaw, ANodeStopsBehindAPatchWhereItsEnergyEnds) {
-  const double dt = 2e-7, dry = 0.5, ice = 0.1, from = 0.2, to = 0.5;
+  const double dt = 1e-6, dry = 0.5, ice = 0.1, from = 0.2, to = 0.5;
   const Model model = sliding_particle(
       contact::friction_of({.coefficient = dry,
                             .slip = {},
@@ -92,7 +92,7 @@ TEST(FrictionLaw, ANodeStopsBehindAPatchWhereItsEnergyEnds) {
   const double energy = 0.5 * speed * speed / gravity;
   const double stops = to + (energy - dry * (from - begins) - ice * (to - from)) / dry;
   EXPECT_GT(stops, 1.1);
-  EXPECT_NEAR(slide.run.state.u.plane()[0].x, stops, 1e-6 * stops);
+  EXPECT_NEAR(slide.run.state.u.plane()[0].x, stops, 3.0 * dt);
 }
 
 TEST(FrictionLaw, ANodeSlidesByTheClosedFormOfFallingFriction) {
