@@ -5,18 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "rondo/core/process_wide.hpp"
-#include "rondo/model/integrator.hpp"
+#include "rondo/rom/reduced_run.hpp"
 #include "rondo/rom/solid/solid_wheel.hpp"
-#include "rondo/rom/wheel_run.hpp"
 
 namespace rondo::rom {
-
-/// @param known spins of the run; as make_wheel_model()
-[[nodiscard]] WheelModel make_solid_model(const SolidRing& ring,
-                                          std::vector<RingHarmonic> harmonics,
-                                          const KnownSpins& spins,
-                                          const WheelViscosity& viscosity = {});
 
 /// Velocities of a hub that is led from outside.
 struct HubVelocity {
@@ -39,7 +31,7 @@ struct HubReport {
   Vec3 moment;          ///< and its moment about the center                               [N m]
 };
 
-class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resumable {
+class SolidWheelRun final : public ReducedRun {
  public:
   /// All but the state must outlive it. @param model dt: that of the reduced step
   /// @param at_start u and v at t = 0, co-rotating frame; what is outside of the modes is lost
@@ -58,48 +50,34 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
   /// In this and all later steps the hub has these velocities at the end of the step and approaches
   /// them linearly, whatever the tables say. @pre the model has a rim, of which nothing is free
   void lead(const HubVelocity& end) noexcept { led_ = end; }
-  [[nodiscard]] const WheelRim* rim() const noexcept { return rim_ ? &*rim_ : nullptr; }
   [[nodiscard]] const HubReport& hub() const noexcept { return hub_; }
   /// Camber and yaw after the last step [rad].
   [[nodiscard]] double camber() const noexcept { return camber_; }
   [[nodiscard]] double yaw() const noexcept { return yaw_; }
 
-  void advance(std::span<dynamics::StepReport> reports,
-               dynamics::State* last = nullptr) noexcept override;
-  void fields(dynamics::State& state) const noexcept override;
-  [[nodiscard]] Resumable* resumable() noexcept override { return this; }
-  [[nodiscard]] dynamics::SavedState save() const override;
-  void restore(const dynamics::SavedState& saved) override;
-
  private:
-  [[nodiscard]] SolidMotion motion_of(long long step) const;
-  void step(dynamics::StepReport& report);
-  void begin(const dynamics::State& at_start);
-  SolidWheelReport step_on_rim(dynamics::Works& works);
+  const WheelOutcome& make_step(dynamics::Works& works) override;
+  void report_forces(dynamics::ContactReport& report) override;
+  [[nodiscard]] dynamics::StepEnergy energy_of(const WheelEnergy& wheel) const override;
+  void contact_displacement(double angle, Field& u) const override {
+    wheel_.contact_displacement(angle, u);
+  }
+  void displacement(double angle, Field& u) const override { wheel_.displacement(angle, u); }
+  void velocity(double angle, Field& v) const override { wheel_.velocity(angle, v); }
+  [[nodiscard]] std::vector<double> save_wheel() const override { return wheel_.save(); }
+  void restore_wheel(std::span<const double> numbers) override { wheel_.restore(numbers); }
+  [[nodiscard]] std::vector<double> save_aside() const override;
+  void restore_aside(std::span<const double> numbers) override;
+
+  [[nodiscard]] SolidMotion in_space(const WheelMotion& plane, long long step) const;
+  void step_on_rim(dynamics::Works& works);
   void turn_hub(SolidMotion& motion);
   void set_frame(const SolidMotion& motion);
   [[nodiscard]] double lateral_rate(double t) const;
-  [[nodiscard]] bool is_viscous() const noexcept { return n_sums_ > 0; }
-  [[nodiscard]] dynamics::StepEnergy energy_of(const WheelEnergy& wheel) const;
-  void count(const SolidWheelReport& wheel, double seconds);
-  void report_contact(const SolidWheelReport& wheel, dynamics::ContactReport& report) const;
-  void list_contacts(const SolidWheelReport& wheel);
-  [[nodiscard]] std::size_t candidate_of(int contact_node) const noexcept;
-  void fill(dynamics::State& state) const;
 
-  const OneBlasThread one_blas_thread_;  ///< products are too small for more
-  const dynamics::Model& model_;
-  const SolidRing& ring_;
-  const double law_residual_;
-  WheelFigures& figures_;
-  std::vector<int> candidate_;  ///< (n) place among the candidates; -1: none
   SolidWheel wheel_;
-  std::optional<WheelRim> rim_;
-  const std::size_t n_sums_;  ///< numbers of the sums of a viscous wheel
-  MaterialSums sums_;
-  dynamics::Ledger ledger_;
+  SolidWheelReport report_;    ///< of the last step
   const double aside_;         ///< place of the center along t2 at t = 0          [m]
-  long long n_ = 0;            ///< number of steps made
   double camber_, yaw_ = 0.0;  ///< [rad]
   // Of a hub that is led:
   std::optional<HubVelocity> led_;
@@ -109,8 +87,6 @@ class SolidWheelRun final : public dynamics::Integrator, public dynamics::Resuma
   double lateral_ = 0.0;           ///< velocity                                       [m/s]
   double lateral_momentum_ = 0.0;  ///< of the deformation                             [N s]
   double lateral_force_ = 0.0;     ///< of the ground at the end of the last step        [N]
-  dynamics::FrameStep frame_;
-  std::vector<dynamics::ActiveContact> active_;
 };
 
 }  // namespace rondo::rom

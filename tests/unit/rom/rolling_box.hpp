@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rondo/fem/contact_mass.hpp"
+#include "rondo/rom/make_wheel_model.hpp"
 #include "rondo/rom/solid/solid_wheel.hpp"
 #include "rondo/rom/solid_wheel_run.hpp"
 #include "support/solid_wheel.hpp"

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "rondo/rom/make_wheel_model.hpp"
 #include "rondo/rom/wheel_run.hpp"
 #include "support/models.hpp"
 

@@ -10,6 +10,7 @@
 #include "rondo/analysis/reduced/wheel_file.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/output/run_options.hpp"
+#include "rondo/rom/make_wheel_model.hpp"
 #include "rondo/rom/solid_wheel_run.hpp"
 #include "rondo/rom/wheel_run.hpp"
 

@@ -63,7 +63,7 @@ constexpr JsonMember<WheelEnd> effort_rows[] = {
      [](const WheelEnd& e) -> Json { return e.f.contacts_max; }},
     {"steps_pivoted", "integer", "",
      "Steps in which the contact law needed pivoting, in three dimensions Newton's method",
-     [](const WheelEnd& e) -> Json { return e.f.pivoted; }},
+     [](const WheelEnd& e) -> Json { return e.f.second_method; }},
     {"steps_late_friction", "integer", "",
      "Steps whose coefficients of friction are those by slip and pressure of the step before, "
      "because those of the step itself were not found",

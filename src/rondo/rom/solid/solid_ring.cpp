@@ -107,25 +107,6 @@ RingHarmonic lowest(const SolidRing& ring, const RingHarmonic& of, Index n) {
 
 }  // namespace
 
-SolidRing make_solid_ring(const fem::SolidSector& stiffness, std::span<const double> mass,
-                          std::span<const Vec2> reference, std::span<const double> axial,
-                          std::span<const int> contact) {
-  SolidRing ring{stiffness, {}, {}, {}, {}};
-  std::vector<char> touches(at(stiffness.nodes_per_sector));
-  for (const int node : contact) touches[at(node % stiffness.nodes_per_sector)] = 1;
-  for (std::size_t a = 0; a < stiffness.n_local(); ++a) {
-    const std::size_t node = stiffness.node(a, 0);
-    ring.place.push_back(Vec3(reference[node], axial[node]));
-    ring.mass.push_back(mass[node]);
-    const bool contacts = touches[at(stiffness.nodes[a])] != 0;
-    RONDO_DEMAND(contacts == (mass[node] == 0.0), a, mass[node]);
-    if (contacts) ring.contact.push_back(static_cast<int>(a));
-  }
-  RONDO_DEMAND(ring.contact.size() * at(stiffness.n_sectors) == contact.size(), ring.contact.size(),
-               stiffness.n_sectors, contact.size());
-  return ring;
-}
-
 std::vector<RingHarmonic> solid_modes(const SolidRing& ring, const ModeChoice& choice) {
   const HarmonicStiffness stiffness(ring.stiffness);
   const int n_harmonics = (ring.n_sectors() + 1) / 2;

@@ -41,6 +41,7 @@ SolidWheel::SolidWheel(const SolidRing& ring, const WheelModel& model,
       settings_(settings),
       n_contact_(static_cast<int>(ring.contact.size())),
       flat_(!ground.space && ground.ground.bends().empty() && !ground.ground.has_concave_corners()),
+      area_(tributaries_of(ring, ground)),
       law_(settings.law_residual) {
   const std::vector<RingResidual>& residuals = model.residuals;
   RONDO_DEMAND(
@@ -50,12 +51,6 @@ SolidWheel::SolidWheel(const SolidRing& ring, const WheelModel& model,
                model.radius, settings.theta);
   const std::size_t n = ring.contact.size() * at(ring.n_sectors());
   memory_.resize(n);
-  for (const int row : ring.contact) {
-    const auto node = static_cast<int>(ring.stiffness.node(at(row), 0));
-    const auto found = std::ranges::find(ground.nodes, node);
-    RONDO_DEMAND(found != ground.nodes.end(), node);
-    area_.push_back(ground.tributary[at(found - ground.nodes.begin())]);
-  }
   centrifugal_ = residuals.front().centrifugal;
   if (!model.creep.empty())
     creep_.emplace(model.creep, residuals, model.later, ring.stiffness.turn,

@@ -66,10 +66,9 @@ struct GroundForces {
   Vec3 moment;  ///< [N m]
 };
 
-struct SolidWheelReport {
+struct SolidWheelReport : WheelOutcome {
   GroundForces end;   ///< at the end of the step
   GroundForces mean;  ///< θ of it and 1 - θ of that at its start: what moves modes and rim
-  double torque = 0.0, mean_torque = 0.0;  ///< of these about the axle               [N m]
   /// SolidWheel::lateral_momentum at the end and its mean in the step, for a rim that moves [N s].
   double lateral_momentum = 0.0, lateral_middle = 0.0;
   double lateral_work = 0.0;  ///< of the force at the end along t2, part of WheelEnergy::rim [J]
@@ -77,14 +76,7 @@ struct SolidWheelReport {
   /// which is a part of WheelEnergy::rim, and the work that the inertia of this turning does on the
   /// modes [J].
   double turning_work = 0.0, turning_inertia = 0.0;
-  double load = 0.0;   ///< work of the constant loads on the modes             [J]
-  WheelEnergy energy;  ///< [J]
-  int candidates = 0;  ///< nodes whose contact was solved
-  int iterations = 0;
-  bool by_newton = false;
-  bool late = false;  ///< μ is that by the step before: that by the step itself was not found
-  double law_residual = 0.0;  ///< over the largest force
-  double free = 0.0;          ///< largest distance that a contact would move without forces [m]
+  double load = 0.0;  ///< work of the constant loads on the modes                       [J]
   std::span<const SolidWheelContact> contacts;  ///< valid until the next step
 };
 
@@ -298,7 +290,7 @@ class SolidWheel {
   const SolidWheelSettings settings_;
   const int n_contact_;  ///< C
   const bool flat_;
-  std::vector<double> area_;  ///< (C) of the ground that a contact node presses          [m²]
+  const std::vector<double> area_;  ///< (C) of the ground that a contact node presses          [m²]
   // These members belong to the spin of the matrices.
   double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
   bool has_matrices_ = false, new_table_ = false, has_shift_ = false, on_moving_rim_ = false;

@@ -267,7 +267,7 @@ void SolidWheel::solve_law(SolidWheelReport& report) {
     solved = law_.solve(cones_, window_, rows);
   }
   report.iterations += solved.sweeps;
-  report.by_newton |= solved.by_newton;
+  report.second_method |= solved.by_newton;
   report.law_residual = solved.residual;
   for (std::size_t i = 0; i < solved_.size(); ++i) {
     const ConeContact& c = cones_[i];

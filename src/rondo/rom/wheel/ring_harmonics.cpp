@@ -56,8 +56,8 @@ MatrixXcd quarter_turned(const MatrixXcd& u) {
 VectorXcd reference(const Ring& ring) {
   VectorXcd x(ring.n_rows());
   for (std::size_t a = 0; a < ring.place.size(); ++a) {
-    x[static_cast<Index>(2 * a)] = ring.place[a].re;
-    x[static_cast<Index>(2 * a + 1)] = ring.place[a].im;
+    x[static_cast<Index>(2 * a)] = ring.place[a].x;
+    x[static_cast<Index>(2 * a + 1)] = ring.place[a].y;
   }
   return x;
 }
@@ -209,25 +209,6 @@ std::optional<CreepPair> exact_creep(const Ring& ring, const RingHarmonic* h, in
 const RingHarmonic* find_harmonic(std::span<const RingHarmonic> harmonics, int k) {
   const auto found = std::ranges::find(harmonics, k, &RingHarmonic::k);
   return found == harmonics.end() ? nullptr : &*found;
-}
-
-Ring make_ring(const fem::SectorStiffness& stiffness, std::span<const double> mass,
-               std::span<const Vec2> reference, std::span<const int> contact) {
-  Ring ring{stiffness, {}, {}, {}};
-  std::vector<char> touches(at(stiffness.nodes_per_sector));
-  for (const int node : contact) touches[at(node % stiffness.nodes_per_sector)] = 1;
-  for (std::size_t a = 0; a < stiffness.n_local(); ++a) {
-    const std::size_t node = stiffness.node(a, 0);
-    const Vec2 x = reference[node];
-    ring.place.push_back({x.x, x.y});
-    ring.mass.push_back(mass[node]);
-    const bool contacts = touches[at(stiffness.nodes[a])] != 0;
-    RONDO_DEMAND(contacts == (mass[node] == 0.0), a, mass[node]);
-    if (contacts) ring.contact.push_back(static_cast<int>(a));
-  }
-  RONDO_DEMAND(ring.contact.size() * at(stiffness.n_sectors) == contact.size(), ring.contact.size(),
-               stiffness.n_sectors, contact.size());
-  return ring;
 }
 
 MatrixXcd stiffness_of(const Ring& ring, int k) {

@@ -1,40 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  The harmonics of a ring of N equal sectors whose contact nodes have no mass
 /// (docs/reduced.md): modes, and what forces on the contact nodes do that no mode does. Vectors
-/// have two components for each node of a sector, radial and tangential in the frame of the sector;
-/// u_j = Re Σ_k w_k e^{ikψ_j} U_k with ψ_j = φ_j + θ, w_0 = 1 and w_k = 2. U_k stands still where
-/// the displacement stands still in space. Forces are per metre of width.
+/// have the components of each node of a sector; u_j = Re Σ_k w_k e^{ikψ_j} U_k with ψ_j = φ_j + θ,
+/// w_0 = 1 and w_k = 2. U_k stands still where the displacement stands still in space. Forces are
+/// per metre of width.
 #pragma once
 #include <Eigen/Core>
 #include <functional>
 #include <span>
 #include <vector>
 
-#include "rondo/fem/sector_stiffness.hpp"
 #include "rondo/rom/wheel/creep/creep.hpp"
+#include "rondo/rom/wheel/ring.hpp"
 
 namespace rondo::rom {
-
-struct Ring {
-  const fem::SectorStiffness& stiffness;
-  std::vector<int> contact;    ///< (C) rows of the nodes that may touch
-  std::vector<double> mass;    ///< (n_local) 0 at those                              [kg/m]
-  std::vector<Complex> place;  ///< (n_local) X in the frame of the sector, x + iy        [m]
-
-  [[nodiscard]] int n_sectors() const noexcept { return stiffness.n_sectors; }
-  [[nodiscard]] Eigen::Index n_rows() const noexcept {
-    return static_cast<Eigen::Index>(2 * stiffness.n_local());
-  }
-  [[nodiscard]] Eigen::Index n_contact() const noexcept {
-    return static_cast<Eigen::Index>(2 * contact.size());
-  }
-};
-
-/// @param mass, reference (n) of the nodes of the body; masses of contact nodes are 0
-/// @param contact nodes of the body, the same in every sector
-/// @pre each contact node couples with a row that has mass
-[[nodiscard]] Ring make_ring(const fem::SectorStiffness& stiffness, std::span<const double> mass,
-                             std::span<const Vec2> reference, std::span<const int> contact);
 
 /// K(k) = Σ e^{ikφ shift} K_shift.
 [[nodiscard]] Eigen::MatrixXcd stiffness_of(const Ring& ring, int k);

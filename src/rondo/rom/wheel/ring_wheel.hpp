@@ -19,7 +19,8 @@
 #include "rondo/rom/wheel/left_behind.hpp"
 #include "rondo/rom/wheel/ring_harmonics.hpp"
 #include "rondo/rom/wheel/sliding_memory.hpp"
-#include "rondo/rom/wheel/wheel_energy.hpp"
+#include "rondo/rom/wheel/wheel_model.hpp"
+#include "rondo/rom/wheel/wheel_outcome.hpp"
 #include "rondo/rom/wheel/wheel_rim.hpp"
 
 namespace rondo::rom {
@@ -42,21 +43,6 @@ struct WheelSettings {
   std::vector<double> lengths{};
 };
 
-/// What the steps of a wheel need that is found once.
-struct WheelModel {
-  std::vector<RingHarmonic> harmonics;
-  std::vector<double> squares;          ///< s² of the residuals: one, or three between which they
-                                        ///< are interpolated [1/s²]
-  std::vector<RingResidual> residuals;  ///< at these
-  double largest_spin = 0.0;            ///< up to which these are good                    [rad/s]
-  double radius = 0.0;                  ///< largest |X| [m]
-  // Of a body whose material has viscous branches, the same ones everywhere; others have none.
-  std::vector<fem::ViscousBranch> branches{};
-  std::vector<CreepTerm> creep{};     ///< of these and of the stiffness damping
-  std::vector<RingResidual> later{};  ///< at `squares`: CreepResidual::later
-  std::vector<int> one_matrix{};      ///< CreepResidual::one_matrix of the largest spin
-};
-
 /// A node that the ground presses.
 struct WheelContact {
   int node = 0;       ///< sector · C + place among the contact nodes of a sector
@@ -67,18 +53,9 @@ struct WheelContact {
   contact::Status status = contact::Status::open;
 };
 
-struct WheelReport {
-  Vec2 force;           ///< of the ground, at the end of the step                   [N/m]
-  double torque = 0.0;  ///< about the center, counter-clockwise                       [N]
+struct WheelReport : WheelOutcome {
+  Vec2 force;       ///< of the ground, at the end of the step                       [N/m]
   Vec2 mean_force;  ///< θ of it and 1 - θ of that at the start: what moves the modes and the rim
-  double mean_torque = 0.0;
-  WheelEnergy energy;
-  int candidates = 0;  ///< nodes whose contact was solved
-  int iterations = 0;
-  bool pivoted = false;
-  bool late = false;  ///< μ is that by the step before: that by the step itself was not found
-  double law_residual = 0.0;  ///< over the largest force
-  double free = 0.0;  ///< largest distance that a contact would move without forces      [m]
   std::span<const WheelContact> contacts;  ///< valid until the next step
 };
 
@@ -289,9 +266,8 @@ class RingWheel {
   void write_field(double angle, const Eigen::VectorXd& constant, Coefficients&& coefficients,
                    Filtered&& filtered, std::span<Vec2> field) const;
   [[nodiscard]] Vec2 arm(int node) const noexcept {
-    const Complex x =
-        ring_.place[static_cast<std::size_t>(ring_.contact[static_cast<std::size_t>(local(node))])];
-    return {x.re, x.im};
+    return ring_
+        .place[static_cast<std::size_t>(ring_.contact[static_cast<std::size_t>(local(node))])];
   }
   [[nodiscard]] bool is_whole() const noexcept { return ring_.n_sectors() == 1; }
   [[nodiscard]] double residual_stored() const noexcept {

@@ -16,7 +16,7 @@ constexpr double settled_law = 1e-9;  ///< change of what friction holds, over t
 
 void count(const GapLaw::Report& solved, WheelReport& report) {
   report.iterations += solved.iterations;
-  report.pivoted |= solved.pivoted;
+  report.second_method |= solved.pivoted;
   report.law_residual = solved.residual;
 }
 

@@ -146,7 +146,7 @@ RingResidual whole_residual(const Ring& ring, const WholeMesh& whole,
   for (std::size_t a = 0; a < ring.mass.size(); ++a) {
     const std::size_t node = ring.stiffness.node(a, 0);
     mass[node] = ring.mass[a];
-    pull[node] = spin_squared * ring.mass[a] * Vec2{ring.place[a].re, ring.place[a].im};
+    pull[node] = spin_squared * ring.mass[a] * ring.place[a];
   }
   const auto beyond = std::make_shared<Beyond>(ring, whole, harmonics, mass, spin_squared);
   RingResidual out;

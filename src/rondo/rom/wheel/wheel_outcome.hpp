@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What a reduced wheel accounts for in a step.
+/// @file  What a reduced wheel reports of a step, in the plane and in three dimensions.
 #pragma once
 
 namespace rondo::rom {
@@ -19,6 +19,20 @@ struct WheelEnergy {
   double arrival = 0.0;   ///< taken where nodes arrive, as distance from the ground
   double rim = 0.0;       ///< work of the ground's forces on the rim
   double scheme = 0.0;    ///< by which the distances of the law differ from the work of the forces
+};
+
+/// What the reports of both have. Forces are per metre of width in the plane.
+struct WheelOutcome {
+  /// Of the ground's forces about the axle, counter-clockwise: at the end of the step, and what θ
+  /// of it and 1 - θ of that at its start make [N], [N m]
+  double torque = 0.0, mean_torque = 0.0;
+  WheelEnergy energy;
+  int candidates = 0;          ///< nodes whose contact was solved
+  int iterations = 0;          ///< of the law
+  bool second_method = false;  ///< solved it: pivoting in the plane, in space Newton's method
+  bool late = false;  ///< μ is that by the step before: that by the step itself was not found
+  double law_residual = 0.0;  ///< over the largest force
+  double free = 0.0;  ///< largest distance that a contact would move without forces      [m]
 };
 
 }  // namespace rondo::rom
