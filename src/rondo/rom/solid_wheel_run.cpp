@@ -13,10 +13,10 @@ namespace {
 constexpr std::size_t lateral_numbers = 9;  ///< of a rim that moves, in SavedState::ring
 
 SolidWheelSettings settings_of(const dynamics::Model& model, double law_residual) {
-  return {.dt = model.dt,
-          .mass_damping = model.mass_damping,
-          .stiffness_damping = model.stiffness_damping,
-          .law_residual = law_residual};
+  return {{.dt = model.dt,
+           .mass_damping = model.mass_damping,
+           .stiffness_damping = model.stiffness_damping},
+          law_residual};
 }
 
 }  // namespace

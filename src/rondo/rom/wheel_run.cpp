@@ -12,11 +12,12 @@ namespace {
 constexpr double law_residual = 1e-9;  ///< the bound of all runs in the plane
 
 WheelSettings settings_of(const dynamics::Model& model, const Ring& ring) {
-  return {.dt = model.dt,
-          .mass_damping = model.mass_damping,
-          .stiffness_damping = model.stiffness_damping,
-          .friction = model.contact->law.friction,
-          .lengths = tributaries_of(ring, *model.contact)};
+  return {{.dt = model.dt,
+           .mass_damping = model.mass_damping,
+           .stiffness_damping = model.stiffness_damping},
+          model.contact->law.friction,
+          SlipRule::anchored,
+          tributaries_of(ring, *model.contact)};
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ struct RollingBox {
     return {box.ring,
             model,
             *box.model.contact,
-            {.dt = dt, .mass_damping = 200.0, .stiffness_damping = loss.stiffness_damping}};
+            {{.dt = dt, .mass_damping = 200.0, .stiffness_damping = loss.stiffness_damping}}};
   }
   [[nodiscard]] SolidMotion motion(int n) const {
     const auto height = [](int k) { return k < 20 ? 0.3 - 5e-4 * k : 0.29; };

@@ -62,7 +62,9 @@ struct Rolling {
   std::vector<double> lengths{};    ///< as WheelSettings has them
 
   [[nodiscard]] WheelSettings settings(double dt) const {
-    return {dt,     damped ? 200.0 : 0.0, damped ? stiffness_damping : 0.0, friction, theta, slip,
+    return {{dt, damped ? 200.0 : 0.0, damped ? stiffness_damping : 0.0, theta},
+            friction,
+            slip,
             lengths};
   }
 };

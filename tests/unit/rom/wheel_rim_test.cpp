@@ -48,10 +48,8 @@ struct OnRim {
   }
   [[nodiscard]] WheelSettings settings() const {
     const dynamics::Model& m = built.model;
-    return {.dt = m.dt,
-            .mass_damping = m.mass_damping,
-            .stiffness_damping = m.stiffness_damping,
-            .friction = 0.4};
+    return {{.dt = m.dt, .mass_damping = m.mass_damping, .stiffness_damping = m.stiffness_damping},
+            0.4};
   }
 };
 

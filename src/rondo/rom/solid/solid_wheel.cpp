@@ -18,40 +18,18 @@ constexpr int spare_sectors = 4;
 
 }  // namespace
 
-SolidWheel::Modes::Modes(const RingHarmonic& of, std::size_t n_branches)
-    : strain(of.squares.size(), n_branches) {
-  const Index r = of.squares.size(), c = of.contact.rows();
-  for (Vector* v : {&state, &before, &work, &shift, &lift, &twist}) v->setZero(2 * r);
-  for (Vector* v : {&force, &outside, &held, &pushed}) v->setZero(r);
-  for (Vector* v : {&ground, &contact, &answered, &shift_contact, &lift_contact, &twist_contact,
-                    &by_rate, &by_place, &by_axial})
-    v->setZero(c);
-  for (Matrix* m : {&stiff, &inverse, &step}) m->setZero(r, r);
-  one.setIdentity(r, r);
-  reply.setZero(r, c);
-  answer.setZero(c, c);
-}
-
 SolidWheel::SolidWheel(const SolidRing& ring, const WheelModel& model,
                        const dynamics::ContactModel& ground, const SolidWheelSettings& settings)
-    : ring_(ring),
-      harmonics_(model.harmonics),
-      model_(model),
+    : ReducedWheel(
+          ring, model, settings,
+          !ground.space && ground.ground.bends().empty() && !ground.ground.has_concave_corners()),
       ground_(ground),
-      settings_(settings),
-      n_contact_(static_cast<int>(ring.contact.size())),
-      flat_(!ground.space && ground.ground.bends().empty() && !ground.ground.has_concave_corners()),
+      law_residual_(settings.law_residual),
       area_(tributaries_of(ring, ground)),
+      memory_(at(n_nodes())),
       law_(settings.law_residual) {
   const std::vector<RingResidual>& residuals = model.residuals;
-  RONDO_DEMAND(
-      residuals.size() == model.squares.size() && (residuals.size() == 1 || residuals.size() == 3),
-      residuals.size(), model.squares.size());
-  RONDO_DEMAND(settings.dt > 0.0 && model.radius > 0.0 && settings.theta >= 0.5, settings.dt,
-               model.radius, settings.theta);
-  const std::size_t n = ring.contact.size() * at(ring.n_sectors());
-  memory_.resize(n);
-  centrifugal_ = residuals.front().centrifugal;
+  const std::size_t n = memory_.size();
   if (!model.creep.empty())
     creep_.emplace(model.creep, residuals, model.later, ring.stiffness.turn,
                    settings.stiffness_damping, settings.dt);
@@ -61,9 +39,7 @@ SolidWheel::SolidWheel(const SolidRing& ring, const WheelModel& model,
   }
   in_sector_.resize(at(ring.n_contact()));
   near_.reserve(n);
-  seen_.reserve(n);
   moved_.reserve(3 * n);
-  solved_.reserve(n);
   touch_.reserve(n);
   cones_.reserve(n);
   before_.reserve(n);
@@ -73,24 +49,6 @@ SolidWheel::SolidWheel(const SolidRing& ring, const WheelModel& model,
       return friction_at(candidate, slip, force);
     };
   contacts_.reserve(n);
-  for (const RingHarmonic& h : harmonics_) modes_.emplace_back(h, model.branches.size());
-}
-
-/// The residual of a spin.
-void SolidWheel::set_residual(double spin) {
-  n_made_ = 0;
-  ++version_;
-  if (tables_.empty()) return;
-  const double square = spin * spin;
-  centrifugal_.setZero();
-  for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
-    double share = 1.0;
-    for (std::size_t b = 0; b < model_.residuals.size(); ++b)
-      if (b != a) share *= (square - model_.squares[b]) / (model_.squares[a] - model_.squares[b]);
-    shares_[a] = share;
-    centrifugal_ += share * model_.residuals[a].centrifugal;
-  }
-  if (creep_) creep_->use(shares_);
 }
 
 /// G of a lag; at a spin between those of the model made when it is asked for, as few lags are.
@@ -148,61 +106,27 @@ void SolidWheel::renew_residuals() {
   }
 }
 
-/// Finds the matrices of a harmonic. With h = ½Δt the middle of the step solves
-/// [c, -h; hL, c + hD] (y_m, p_m) = (y, p + hf).
 void SolidWheel::fill_step(std::size_t harmonic, double spin, double rate) {
   const RingHarmonic& of = harmonics_[harmonic];
   Modes& s = modes_[harmonic];
   const double half = 0.5 * settings_.dt;
-  s.turn = 1.0 + half * Complexes(0.0, of.k * spin);
-  s.lever = half / s.turn;
+  fill_lever(harmonic, spin);
   s.stiff = rate * of.coriolis - spin * spin * of.planar;
   s.stiff.diagonal().array() += of.squares.array();
   const auto damping = settings_.mass_damping + settings_.stiffness_damping * of.squares.array();
   s.step = 2.0 * half * spin * of.coriolis + half * s.lever * s.stiff;
   s.step.diagonal().array() += s.turn + half * damping;
-  branches(harmonic).add_to(s.step);
-  s.factor.compute(s.step);
-  s.inverse = s.factor.solve(s.one);
-  const double share = settings_.theta * settings_.dt * of.weight() / ring_.n_sectors();
-  s.reply.noalias() = s.inverse * of.contact.adjoint();
-  s.answer.noalias() = share * s.lever * of.contact * s.reply;
+  factorise(harmonic);
 }
 
-/// The strains of the branches at the end of the step.
-void SolidWheel::relax_modes() {
-  for (std::size_t h = 0; h < modes_.size(); ++h)
-    modes_[h].strain.relax(branches(h), modes_[h].before, modes_[h].state);
-}
-
-/// (2r) What a force on the modes does in a step.
-void SolidWheel::push_by(const Modes& s, const Vector& force, Vector& out) const {
-  const Index r = s.force.size();
-  out.tail(r).noalias() = s.inverse * force;
-  out.tail(r) *= settings_.dt;
-  out.head(r) = s.lever * out.tail(r);
-}
-
-/// The matrices of a step, and the answers of the contact nodes at its end.
-void SolidWheel::use_spin(const SolidMotion& motion) {
-  const WheelMotion& m = motion.plane;
-  const double rate = m.kept_spin ? 0.0 : m.spin_rate, end = m.kept_spin.value_or(m.spin_next);
-  new_table_ = rate != 0.0 || !has_matrices_ || spin_rate_ != 0.0 || spin_ != end;
-  if (new_table_) take_spin(m, rate, end);
-  if (m.kept_spin && !has_shift_) shift_modes();
-}
-
-void SolidWheel::take_spin(const WheelMotion& m, double rate, double end) {
-  residual_before_ = residual_stored();
-  const bool other_spin = spin_ != end;
-  spin_ = end;
-  spin_rate_ = rate;
-  const double spin = rate == 0.0 ? end : (m.angle_next - m.angle) / settings_.dt;
-  set_residual(end);
-  for (std::size_t h = 0; h < harmonics_.size(); ++h) fill_step(h, spin, rate);
-  if (other_spin && !tables_.empty()) renew_residuals();
-  has_matrices_ = true;
-  has_shift_ = false;
+/// The matrices of a step, and what depends on the tables of its spin.
+void SolidWheel::use_spin(const WheelMotion& m) {
+  const double before = spin_;
+  ReducedWheel::use_spin(m);
+  if (!new_table_) return;
+  n_made_ = 0;
+  if (creep_) creep_->use(shares_);
+  if (spin_ != before && !tables_.empty()) renew_residuals();
 }
 
 /// W of the window: G/(1 + β/Δt) and the answer of the modes, block after block by the lag.
@@ -252,18 +176,9 @@ void SolidWheel::move_modes(const SolidMotion& motion) {
     s.pushed += p;
     s.pushed.noalias() -= s.lever * (s.stiff * y);
     if (creep_) s.strain.take_from(branches(h), s.pushed);
-    s.state.tail(r).noalias() = s.inverse * s.pushed;  // the middle
-    s.state.head(r) = 2.0 * (y / s.turn + s.lever * s.state.tail(r)) - y;
-    s.state.tail(r) = 2.0 * s.state.tail(r) - p;
+    finish_middle(h);
   }
   move_contact();
-}
-
-/// What the modes do to the contact nodes.
-void SolidWheel::move_contact() {
-  for (std::size_t h = 0; h < modes_.size(); ++h)
-    modes_[h].contact.noalias() =
-        harmonics_[h].contact * modes_[h].state.head(harmonics_[h].squares.size());
 }
 
 /// Displacement of a contact node by the modes. @param of (3C) amplitudes of each harmonic
@@ -281,7 +196,7 @@ Vec3 SolidWheel::modal(int node, Complex turn, const Vector Modes::*of) const no
 
 SolidWheelReport SolidWheel::step(const SolidMotion& m) {
   SolidWheelReport report;
-  use_spin(m);
+  use_spin(m.plane);
   move_modes(m);
   find_near(m);
   solve(m, report);

@@ -4,8 +4,6 @@
 /// radial, tangential and axial in the frame of its sector, its own axes, unless they are said to
 /// be of the fixed axes (t1, n, t2).
 #pragma once
-#include <Eigen/LU>
-#include <array>
 #include <complex>
 #include <memory>
 #include <optional>
@@ -18,17 +16,12 @@
 #include "rondo/rom/solid/harmonic_creep.hpp"
 #include "rondo/rom/solid/solid_residual.hpp"
 #include "rondo/rom/solid/wheel_attitude.hpp"
-#include "rondo/rom/wheel/creep/branch_strains.hpp"
-#include "rondo/rom/wheel/ring_wheel.hpp"
+#include "rondo/rom/wheel/reduced_wheel.hpp"
 
 namespace rondo::rom {
 
-struct SolidWheelSettings {
-  double dt = 0.0;                 ///< [s]
-  double mass_damping = 0.0;       ///< α                                        [1/s]
-  double stiffness_damping = 0.0;  ///< β                                          [s]
-  double theta = 0.6;              ///< share of the new force in that on the modes
-  double law_residual = 1e-6;      ///< of the law of contact, over the largest force
+struct SolidWheelSettings : StepSettings {
+  double law_residual = 1e-6;  ///< of the law of contact, over the largest force
 };
 
 /// The rim over a step.
@@ -80,7 +73,7 @@ struct SolidWheelReport : WheelOutcome {
   std::span<const SolidWheelContact> contacts;  ///< valid until the next step
 };
 
-class SolidWheel {
+class SolidWheel final : private ReducedWheel<3> {
  public:
   /// All but the settings must outlive it.
   SolidWheel(const SolidRing& ring, const WheelModel& model, const dynamics::ContactModel& ground,
@@ -129,86 +122,25 @@ class SolidWheel {
                                      std::span<const double> numbers) noexcept;
 
  private:
-  using Complexes = std::complex<double>;
-  using Vector = Eigen::VectorXcd;
-  using Matrix = Eigen::MatrixXcd;
-
-  /// The modes of a harmonic; their coefficients y and velocities p are one after the other.
-  struct Modes {
-    Modes(const RingHarmonic& of, std::size_t n_branches);
-
-    Vector state, before;   ///< (2r) at the end of the last step, and of the one before
-    Vector force, outside;  ///< (r) of the contact, φ_cᴴ λ; of the frame
-    Vector held;            ///< (r) of the contact at the start of the step, its share in it
-    Vector ground;          ///< (3C) sum of e^{-ikψ} λ over the sectors, over their number
-    Vector contact;         ///< (3C) φ_c y without new forces
-    Vector answered;        ///< (3C) and what these do to it
-    Vector pushed, work;    ///< (r), (2r)
-    BranchStrains strain;
-    // fill_step() sets these for a step.
-    Complexes turn, lever;  ///< c = 1 + ½Δt iks; ½Δt/c                                         [s]
-    Matrix stiff;    ///< (r, r) ω² - s² P + ṡ J                                       [1/s²]
-    Matrix inverse;  ///< (r, r) of c + ½Δt (α + βω² + 2sJ) + ½Δt lever stiff
-    Matrix step, one;                    ///< (r, r) what is inverted; the identity
-    Eigen::PartialPivLU<Matrix> factor;  ///< of it
-    Matrix reply, answer;  ///< (r, 3C) inverse φ_cᴴ; (3C, 3C) share of the modes in W
-    // On a rim that moves: what unit accelerations along x, along the axle and of the angle do.
-    Vector shift, lift, twist;                          ///< (2r) at the end of the step
-    Vector shift_contact, lift_contact, twist_contact;  ///< (3C) φ_c y of these
-    Vector by_rate, by_place, by_axial;  ///< (3C) momenta by new forces, through p and through y
+  /// A contact node near the ground; places and forces are in the frame of its sector.
+  struct Near : NearNode<Vec3> {
+    Vec3 force;  ///< at the end of the step                                              [N]
   };
-  using Columns = std::array<Vec3, 3>;
-  /// A contact node near the ground.
-  struct Near {
-    int node = 0;
-    Complex turn;  ///< e^{iψ} at the end of the step
-    Complex wave;  ///< the same where the modes are, which only a rim that moves distinguishes
-    Vec3 free;     ///< place from the center at the end of the step without new forces   [m]
-    Vec3 place;    ///< and with them                                                     [m]
-    Vec3 force;    ///< at the end of the step                                            [N]
-    bool candidate = false;
-    // On a rim that moves.
-    Vec3 still;     ///< `free` without accelerations beyond those of WheelRim::begin       [m]
-    Columns moved;  ///< change of `place` by unit accelerations along t1 and n and of the angle
-    Columns push;   ///< momenta of these by a force: their products with it
-    Columns reply;  ///< and the accelerations by it
-  };
-  /// What is remembered of a contact node.
-  struct Memory {
-    Vec3 force;                      ///< [N]
-    Vec3 filtered, filtered_before;  ///< forces that the residual answers to              [N]
-    Vec3 residual, residual_before;  ///< G of these                                       [m]
-    std::array<Vec3, 3> place{};     ///< from the center, newest first, fixed axes        [m]
-    std::array<double, 2> gap{};     ///< newest first                                     [m]
+  struct Memory : NodeMemory<Vec3> {
+    Vec3 residual, residual_before;  ///< G of the filtered forces                         [m]
     double slip = 0.0;               ///< distance slid in the last step                   [m]
-    int known = 0;                   ///< number of places that are known
   };
   static constexpr std::size_t numbers_of_node = 22;
 
-  void use_spin(const SolidMotion& motion);
-  void take_spin(const WheelMotion& motion, double rate, double end);
-  void set_residual(double spin);
-  void fill_step(std::size_t harmonic, double spin, double rate);
-  void push_by(const Modes& modes, const Vector& force, Vector& out) const;
-  [[nodiscard]] BranchStep branches(std::size_t harmonic) const noexcept {
-    return {model_.branches, harmonics_[harmonic].squares, modes_[harmonic].turn, settings_.dt};
-  }
-  void relax_modes();
+  void use_spin(const WheelMotion& motion);
+  void fill_step(std::size_t harmonic, double spin, double rate) override;
   void move_modes(const SolidMotion& motion);
-  void shift_modes();
-  void twist_modes();
   [[nodiscard]] Vec3 momentum_of(const Vector Modes::*of, bool places) const;
   [[nodiscard]] Eigen::Matrix3d momenta_by_rate(const SolidMotion& motion) const;
   void find_columns(const SolidMotion& motion);
-  void accelerate_near(const RimVector& z, const Eigen::Matrix3d& answer);
   [[nodiscard]] RimVector push_on_rim() const;
   void accelerate_modes(const RimVector& z, const SolidMotion& motion);
   [[nodiscard]] WheelRim::End end_of(const SolidWheelReport& report, const SolidMotion& motion);
-  void turn_modes(double angle);
-  [[nodiscard]] double waves_at(const WheelMotion& m) const noexcept {
-    return m.kept_spin ? m.angle + settings_.dt * *m.kept_spin : m.angle_next;
-  }
-  void move_contact();
   void make_window();
   [[nodiscard]] Eigen::Map<const Eigen::MatrixXd> beyond(int lag) const;
   [[nodiscard]] Vec3 product(int to, int from, Vec3 force) const noexcept;
@@ -235,23 +167,15 @@ class SolidWheel {
   void solve_law(SolidWheelReport& report);
   void solve(const SolidMotion& motion, SolidWheelReport& report);
   void take_forces(const SolidMotion& motion, SolidWheelReport& report);
-  void push_modes(const Near& near);
   void filter_forces();
   void creep_under_forces();
   void account_modes(const SolidMotion& motion, SolidWheelReport& report) const;
   void account(const SolidMotion& motion, SolidWheelReport& report);
-  void account_branches(WheelEnergy& energy) const;
-  /// Twice the energies of the residual.
-  struct Products {
-    double end = 0.0, start = 0.0;
-  };
-  [[nodiscard]] Products account_residual(WheelEnergy& energy) const;
-  [[nodiscard]] double work_on_modes() const;
+  [[nodiscard]] ResidualProducts products() const;
   [[nodiscard]] double work_of_turning(const SolidMotion& motion) const;
   void remember(const SolidMotion& motion);
   void begin(const SolidMotion& motion);
   void press_at_start(const SolidMotion& motion, std::span<const Vec3> u);
-  void project(double angle, std::span<const Vec3> field, bool velocity);
   template <class Filtered>
   [[nodiscard]] HarmonicCreep::Lagging amplitudes_of(Filtered&& filtered) const;
   template <class Coefficients>
@@ -264,9 +188,6 @@ class SolidWheel {
     const double lag = settings_.stiffness_damping / settings_.dt;
     return lag / (1.0 + lag);
   }
-  [[nodiscard]] int sector(int node) const noexcept { return node / n_contact_; }
-  /// Place among the contact nodes of a sector.
-  [[nodiscard]] int local(int node) const noexcept { return node % n_contact_; }
   [[nodiscard]] int wrapped(int sector) const noexcept {
     const int n = ring_.n_sectors();
     return (sector % n + n) % n;
@@ -277,34 +198,17 @@ class SolidWheel {
   [[nodiscard]] const Memory& memory_of(int node) const noexcept {
     return memory_[static_cast<std::size_t>(node)];
   }
-  [[nodiscard]] Vec3 arm(int node) const noexcept {
-    return ring_
-        .place[static_cast<std::size_t>(ring_.contact[static_cast<std::size_t>(local(node))])];
-  }
-  [[nodiscard]] double residual_stored() const noexcept;
+  [[nodiscard]] double residual_stored() const override;
 
-  const SolidRing& ring_;
-  const std::vector<RingHarmonic>& harmonics_;
-  const WheelModel& model_;
   const dynamics::ContactModel& ground_;
-  const SolidWheelSettings settings_;
-  const int n_contact_;  ///< C
-  const bool flat_;
+  const double law_residual_;       ///< over the largest force
   const std::vector<double> area_;  ///< (C) of the ground that a contact node presses          [m²]
-  // These members belong to the spin of the matrices.
-  double spin_ = 0.0, spin_rate_ = 0.0;  ///< of the matrices, at the end of the last step
-  bool has_matrices_ = false, new_table_ = false, has_shift_ = false, on_moving_rim_ = false;
   /// (N, 3C, 3C) G at a spin between those of the model; of a viscous wheel what a new force does
   /// at the end of its step. Blocks of this version of the spin are made [m/N]
   mutable std::vector<double> tables_;
-  mutable std::vector<long long> made_;  ///< (N) version of each block
-  long long version_ = 0;
-  TableShares shares_{1.0};       ///< of the model's residuals
-  Eigen::VectorXd centrifugal_;   ///< (rows) of the spin at its end                       [m]
-  double residual_before_ = 0.0;  ///< energy at its start by the spin of the step before  [J]
+  mutable std::vector<int> made_;               ///< (N) version of each block
   mutable std::unique_ptr<SolidFields> field_;  ///< at the spin of the last one that was asked for
-  std::vector<Modes> modes_;
-  std::vector<Memory> memory_;             ///< (N C)
+  std::vector<Memory> memory_;                  ///< (N C)
   std::optional<HarmonicCreep> creep_;     ///< of viscous materials, in place of filtered forces
   mutable std::vector<double> in_sector_;  ///< (3C) a field of it
   GroundForces last_;                      ///< at the end of the last step
@@ -312,12 +216,10 @@ class SolidWheel {
   int first_ = 0, n_window_ = 0;  ///< first sector, number of sectors
   int n_made_ = 0;                ///< sectors for which the compliance is made
   WindowCompliance window_;
-  Eigen::MatrixXd block_;            ///< (3C, 3C) of it, while it is made
-  std::vector<Near> near_;           ///< (n_window, C)
-  std::vector<int> seen_;            ///< nodes of the last step's near_
-  std::vector<double> moved_;        ///< (3 near) by the forces of the law, own axes            [m]
-  std::vector<std::size_t> solved_;  ///< places of the candidates in near_
-  std::vector<contact::SpaceTouch> touch_;  ///< of these, at `place`
+  Eigen::MatrixXd block_;      ///< (3C, 3C) of it, while it is made
+  std::vector<Near> near_;     ///< (n_window, C)
+  std::vector<double> moved_;  ///< (3 near) by the forces of the law, own axes            [m]
+  std::vector<contact::SpaceTouch> touch_;  ///< of solved_, at `place`
   std::vector<ConeContact> cones_;
   std::vector<Vec3> place_before_;   ///< of these at the start of the step, fixed axes    [m]
   std::vector<ConeContact> before_;  ///< with μ by the step before

@@ -7,7 +7,6 @@
 #include "rondo/core/index.hpp"
 #include "rondo/model/solid/wheel_ground.hpp"
 #include "rondo/rom/solid/solid_wheel.hpp"
-#include "rondo/rom/wheel/landing.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
@@ -115,15 +114,7 @@ Vec3 SolidWheel::distance(const Near& near, const SolidMotion& m) const noexcept
     const Complex back = conj(rotation(m.plane.angle_next - m.plane.angle)) * near.turn;
     return way + free - m.attitude.to_fixed(back * near.free);
   }
-  const Vec3 x = was.place[0];
-  if (was.known < 2 || was.force != Vec3{} || was.gap[0] <= 0.0) return way + free - x;
-  const double dt = settings_.dt, spin = m.plane.spin_next;
-  const double bend = 0.5 * spin * spin * model_.radius * dt * dt;
-  const double tau = landing(was.gap[0], was.gap[0] - was.gap[1] + bend, bend);
-  const Vec3 change = x - was.place[1];
-  const Vec3 second = was.known < 3 ? Vec3{} : x - 2.0 * was.place[1] + was.place[2];
-  const Vec3 before = tau * (change + 0.5 * second) + 0.5 * tau * tau * second;
-  return (1.0 - tau) * way + free - x - before;
+  return was.slid(way, free, was.force != Vec3{}, bend_of(m.plane));
 }
 
 /// μ of a candidate where it was at the start of the step, by a distance that it slides in a step
@@ -235,7 +226,7 @@ void SolidWheel::place_all() {
 
 /// Nodes that were left out and are now in the ground become candidates. False: there are none.
 bool SolidWheel::join(const SolidMotion& m) {
-  const double closed = -1e-6 * settings_.law_residual * model_.radius;
+  const double closed = -1e-6 * law_residual_ * model_.radius;
   bool joined = false;
   for (Near& near : near_)
     if (!near.candidate && touch_of(near, m).gap < closed) joined = near.candidate = true;
@@ -260,7 +251,7 @@ void SolidWheel::solve_law(SolidWheelReport& report) {
   if (follows) before_ = cones_;
   const Index rows = sectors * ring_.n_contact();
   ConeLaw::Report solved = law_.solve(cones_, window_, rows, follows ? &friction_ : nullptr);
-  report.late = follows && !(solved.residual <= settings_.law_residual);
+  report.late = follows && !(solved.residual <= law_residual_);
   if (report.late) {
     cones_ = before_;
     report.iterations += solved.sweeps;
@@ -310,18 +301,6 @@ void SolidWheel::solve(const SolidMotion& m, SolidWheelReport& report) {
   }
 }
 
-/// Adds a force to those on the modes.
-void SolidWheel::push_modes(const Near& near) {
-  const Index row = Index{3} * local(near.node);
-  const Vec3 part = near.force / static_cast<double>(ring_.n_sectors());
-  for_waves(harmonics_, near.wave, [&](std::size_t h, Complex wave) {
-    const Complexes back(wave.re, -wave.im);
-    modes_[h].ground[row] += part.x * back;
-    modes_[h].ground[row + 1] += part.y * back;
-    modes_[h].ground[row + 2] += part.z * back;
-  });
-}
-
 /// Forces of the ground, and what they do to the modes.
 void SolidWheel::take_forces(const SolidMotion& m, SolidWheelReport& report) {
   contacts_.clear();
@@ -342,7 +321,7 @@ void SolidWheel::take_forces(const SolidMotion& m, SolidWheelReport& report) {
     report.end.force += force;
     report.end.moment += cross(fixed(near, near.place, m), force);
     report.torque += cross(near.place, near.force).z;
-    push_modes(near);
+    push_modes(near.node, near.wave, near.force);
   }
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     Modes& s = modes_[h];
@@ -400,10 +379,7 @@ void SolidWheel::remember(const SolidMotion& m) {
   seen_.clear();
   for (const Near& near : near_) {
     Memory& memory = memory_of(near.node);
-    memory.place = {fixed(near, near.place, m), memory.place[0], memory.place[1]};
-    memory.gap = {touch_of(near, m).gap, memory.gap[0]};
-    memory.known = std::min(3, memory.known + 1);
-    memory.force = near.force;
+    memory.keep(fixed(near, near.place, m), touch_of(near, m).gap, near.force);
     memory.slip = 0.0;
     if (dot(memory.filtered, memory.filtered) < nothing * nothing) memory.filtered = {};
     seen_.push_back(near.node);

@@ -13,26 +13,11 @@ using Eigen::Index;
 }  // namespace
 
 /// Energy of the residual at the end of the last step.
-double SolidWheel::residual_stored() const noexcept {
+double SolidWheel::residual_stored() const {
   if (creep_) return creep_->memory().stored(shares_);
   double sum = 0.0;
   for (const int node : seen_) sum += dot(memory_of(node).filtered, memory_of(node).residual);
   return 0.5 * sum;
-}
-
-/// Work of the ground's forces on the modes in the step.
-double SolidWheel::work_on_modes() const {
-  double power = 0.0;
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    const Modes& s = modes_[h];
-    const Index r = s.force.size();
-    Complexes sum = 0.0;
-    for (Index j = 0; j < r; ++j)
-      sum +=
-          std::conj(s.before[r + j] + s.state[r + j]) * (s.held[j] + settings_.theta * s.force[j]);
-    power += 0.5 * harmonics_[h].weight() * sum.real();
-  }
-  return settings_.dt * ring_.n_sectors() * power;
 }
 
 /// Work on the modes of the inertia that a turning hub causes.
@@ -89,31 +74,16 @@ void SolidWheel::account_modes(const SolidMotion& motion, SolidWheelReport& repo
   }
 }
 
-/// What viscous branches of the modes store and take, and the work against the forces of the modes.
-void SolidWheel::account_branches(WheelEnergy& e) const {
-  for (std::size_t h = 0; h < modes_.size(); ++h)
-    modes_[h].strain.account(branches(h), modes_[h].before, modes_[h].state,
-                             harmonics_[h].weight() * ring_.n_sectors(), e);
-}
-
-/// What the residual stores and takes.
-SolidWheel::Products SolidWheel::account_residual(WheelEnergy& e) const {
-  if (creep_) {
-    const CreepEnergy of = creep_->memory().energy(shares_);
-    e.by_residual = of.by_stiffness;
-    e.viscous += of.lost - of.by_stiffness;
-    e.internal += of.work - of.by_stiffness;
-    return {2.0 * of.at_end, 2.0 * of.at_start};
-  }
-  double end = 0.0, across = 0.0, start = 0.0;
+/// Of the filtered forces on the near nodes.
+ResidualProducts SolidWheel::products() const {
+  ResidualProducts sum;
   for (const Near& near : near_) {
     const Memory& memory = memory_of(near.node);
-    end += dot(memory.filtered, memory.residual);
-    across += dot(memory.filtered, memory.residual_before);
-    start += dot(memory.filtered_before, memory.residual_before);
+    sum.end += dot(memory.filtered, memory.residual);
+    sum.across += dot(memory.filtered, memory.residual_before);
+    sum.start += dot(memory.filtered_before, memory.residual_before);
   }
-  e.by_residual = settings_.stiffness_damping / settings_.dt * (end - 2.0 * across + start);
-  return {end, start};
+  return sum;
 }
 
 void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
@@ -123,13 +93,10 @@ void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
   account_modes(motion, report);
   if (creep_) account_branches(e);
   const double viscous_modes = e.viscous;
-  const auto [end, start] = account_residual(e);
-  e.residual = 0.5 * end;
-  e.stored += e.residual;
-  const double by_table =
-      new_table_ && (m.kept_spin || m.spin_rate != 0.0) ? 0.5 * start - residual_before_ : 0.0;
-  if (!m.kept_spin) e.frame += by_table;
-  e.internal += by_table;
+  const ResidualProducts of = creep_ ? account_creep(creep_->memory(), e) : products();
+  if (!creep_)
+    e.by_residual = settings_.stiffness_damping / dt * (of.end - 2.0 * of.across + of.start);
+  const double by_table = account_residual(m, of, e);
   for (std::size_t i = 0; i < solved_.size(); ++i) {
     const Near& near = near_[solved_[i]];
     const ConeContact& c = cones_[i];
@@ -147,9 +114,11 @@ void SolidWheel::account(const SolidMotion& motion, SolidWheelReport& report) {
   e.rim = dot(report.end.force, motion.center_next() - motion.center()) +
           (m.angle_next - m.angle) * report.torque + report.turning_work;
   report.lateral_work = report.end.force.z * (motion.lateral_next - motion.lateral);
-  e.scheme = work_on_modes() + 0.5 * (end - start) + e.by_residual + e.friction + e.arrival + e.rim;
+  e.scheme += e.friction;
+  e.scheme += e.arrival;
+  e.scheme += e.rim;
   e.scheme += e.viscous - viscous_modes;
-  if (m.kept_spin) e.scheme += by_table;
+  e.scheme += by_table;
 }
 
 WheelEnergy SolidWheel::energy_at_start(bool softened) const {

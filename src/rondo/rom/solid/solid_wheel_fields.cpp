@@ -20,19 +20,12 @@ constexpr double touching_share = 1e-6;  ///< of the radius: nodes that near tou
 }  // namespace
 
 void SolidWheel::begin(const SolidMotion& m) {
-  SolidMotion still = m;
-  still.plane.angle = m.plane.angle_next - m.plane.spin_next * settings_.dt;
-  still.plane.spin_rate = 0.0;
   for (Memory& memory : memory_) memory = {};
   seen_.clear();
   last_ = {};
   if (creep_) creep_->clear();
-  use_spin(still);
-  for (Modes& s : modes_) {
-    s.state.setZero();
-    s.force.setZero();
-    s.strain.end.setZero();
-  }
+  use_spin(still(m.plane));
+  rest_modes();
 }
 
 void SolidWheel::start(const SolidMotion& m) {
@@ -72,9 +65,7 @@ void SolidWheel::press_at_start(const SolidMotion& m, std::span<const Vec3> u) {
   const Complex frame = rotation(m.plane.angle_next);
   for (std::size_t i = 0; i < near_.size(); ++i) {
     Near& near = near_[i];
-    const std::size_t row = at(ring_.contact[at(local(near.node))]);
-    const Vec3 moved =
-        conj(near.turn) * (frame * u[ring_.stiffness.node(row, at(sector(near.node)))]);
+    const Vec3 moved = conj(near.turn) * (frame * u[node_of(near.node)]);
     const Vec3 free = near.place;
     near.place = arm(near.node) + moved;
     if (touch_of(near, m).gap <= touching_share * model_.radius)
@@ -115,7 +106,7 @@ void SolidWheel::press_at_start(const SolidMotion& m, std::span<const Vec3> u) {
   if (creep_) creep_->clear_forces();
   for (const std::size_t i : nodes) {
     const Near& near = near_[i];
-    push_modes(near);
+    push_modes(near.node, near.wave, near.force);
     if (creep_)
       creep_->add_force(sector(near.node), Index{3} * local(near.node), near.force);
     else
@@ -132,29 +123,6 @@ void SolidWheel::press_at_start(const SolidMotion& m, std::span<const Vec3> u) {
     creep_->use(shares_);
   }
   renew_residuals();
-}
-
-/// φᴴ M of a field, harmonic by harmonic.
-void SolidWheel::project(double angle, std::span<const Vec3> field, bool velocity) {
-  const Complex frame = rotation(angle);
-  for (int j = 0; j < ring_.n_sectors(); ++j) {
-    const Complex turn = ring_.stiffness.turn[at(j)];
-    for_waves(harmonics_, conj(frame * turn), [&](std::size_t h, Complex back) {
-      const Matrix& shapes = harmonics_[h].shapes;
-      const Index r = shapes.cols();
-      const Complexes part = Complexes(back.re, back.im) / static_cast<double>(ring_.n_sectors());
-      for (Index a = 0; a < ring_.n_rows(); a += 3) {
-        const double mass = ring_.mass[at(a / 3)];
-        if (mass == 0.0) continue;
-        const Vec3 x = conj(turn) * field[ring_.stiffness.node(at(a / 3), at(j))];
-        for (Index c = 0; c < r; ++c)
-          modes_[h].state[(velocity ? r : 0) + c] +=
-              part * mass *
-              (std::conj(shapes(a, c)) * x.x + std::conj(shapes(a + 1, c)) * x.y +
-               std::conj(shapes(a + 2, c)) * x.z);
-      }
-    });
-  }
 }
 
 /// Amplitudes of the forces on the nodes that are remembered.
@@ -248,11 +216,7 @@ void SolidWheel::velocity(double angle, std::span<Vec3> v) const {
         [&](const Memory& memory) { return (memory.filtered - memory.filtered_before) / dt; });
   }
   write_field(
-      angle, Eigen::VectorXd::Zero(ring_.n_rows()),
-      [&](std::size_t h) {
-        const Index r = harmonics_[h].squares.size();
-        return Vector(0.5 * (modes_[h].before.tail(r) + modes_[h].state.tail(r)));
-      },
+      angle, Eigen::VectorXd::Zero(ring_.n_rows()), [&](std::size_t h) { return mean_velocity(h); },
       rate, v);
 }
 

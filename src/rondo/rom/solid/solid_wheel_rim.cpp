@@ -84,44 +84,6 @@ RimVector SolidWheel::force_on_rim(const SolidMotion& m) const {
   return {last_.force.x, last_.force.y, m.attitude_next.from_fixed(last_.moment).z};
 }
 
-/// What unit accelerations along x and along the axle do to the modes, and how momenta see new
-/// forces through them.
-void SolidWheel::shift_modes() {
-  has_shift_ = true;
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    Modes& s = modes_[h];
-    const RingHarmonic& of = harmonics_[h];
-    if (of.k > 1) return;
-    const Index r = of.squares.size();
-    const Matrix rate = settings_.dt * s.reply, place = s.lever * rate;
-    if (of.k == 0) {
-      push_by(s, -of.axial, s.lift);
-      s.lift_contact = of.contact * s.lift.head(r);
-      s.by_rate = settings_.theta * (of.turned.adjoint() * rate).transpose();
-      s.by_place = settings_.theta * (of.reference.adjoint() * place).transpose();
-      s.by_axial = settings_.theta * (of.axial.adjoint() * rate).transpose();
-      continue;
-    }
-    push_by(s, -0.5 * of.translation.conjugate(), s.shift);
-    s.shift_contact = of.contact * s.shift.head(r);
-    s.by_rate = settings_.theta * (of.translation.transpose() * rate).adjoint();
-    s.by_place = settings_.theta * (of.translation.transpose() * place).adjoint();
-  }
-}
-
-/// What a unit acceleration of the angle does to the modes.
-void SolidWheel::twist_modes() {
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    Modes& s = modes_[h];
-    const RingHarmonic& of = harmonics_[h];
-    const Index r = of.squares.size();
-    s.pushed.noalias() = -of.coriolis * s.before.head(r);
-    if (of.k == 0) s.pushed -= of.turned;
-    push_by(s, s.pushed, s.twist);
-    s.twist_contact.noalias() = of.contact * s.twist.head(r);
-  }
-}
-
 /// Columns: momenta at the end of the step by unit accelerations along t1 and n and of the angle.
 Eigen::Matrix3d SolidWheel::momenta_by_rate(const SolidMotion& m) const {
   Eigen::Matrix3d by = Eigen::Matrix3d::Zero();
@@ -203,20 +165,6 @@ void SolidWheel::find_columns(const SolidMotion& m) {
   }
 }
 
-/// Places without new forces under accelerations, and what new forces do to these.
-void SolidWheel::accelerate_near(const RimVector& z, const Eigen::Matrix3d& answer) {
-  for (Near& near : near_) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto row = static_cast<Index>(k);
-      near.reply[k] = answer(row, 0) * near.push[0] + answer(row, 1) * near.push[1] +
-                      answer(row, 2) * near.push[2];
-    }
-    near.free = near.place =
-        near.still + z[0] * near.moved[0] + z[1] * near.moved[1] + z[2] * near.moved[2];
-    near.candidate = false;
-  }
-}
-
 RimVector SolidWheel::push_on_rim() const {
   RimVector sum = RimVector::Zero();
   for (const std::size_t i : solved_) {
@@ -259,20 +207,10 @@ WheelRim::End SolidWheel::end_of(const SolidWheelReport& report, const SolidMoti
   return end;
 }
 
-/// Turns what the modes refer to by an angle; nodes stay where they are.
-void SolidWheel::turn_modes(double angle) {
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    const Complex back = rotation(-harmonics_[h].k * angle);
-    modes_[h].state *= Complexes(back.re, back.im);
-    modes_[h].force *= Complexes(back.re, back.im);
-    modes_[h].strain.end *= Complexes(back.re, back.im);
-  }
-}
-
 SolidWheelReport SolidWheel::step(long long n, WheelRim& rim, SolidMotion& m,
                                   dynamics::Works& works) {
   m.plane = rim.begin(n);
-  use_spin(m);
+  use_spin(m.plane);
   move_modes(m);
   find_near(m);
   twist_modes();
@@ -282,7 +220,7 @@ SolidWheelReport SolidWheel::step(long long n, WheelRim& rim, SolidMotion& m,
   on_moving_rim_ = true;
   do {
     const RimVector z = rim.hold();
-    accelerate_near(z, rim.answer());
+    for (Near& near : near_) near.accelerate(z, rim.answer());
     report = {};
     solve(m, report);
   } while (!rim.settled(push_on_rim()));

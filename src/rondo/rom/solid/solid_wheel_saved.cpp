@@ -6,12 +6,9 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/rom/solid/solid_wheel.hpp"
-#include "rondo/rom/wheel/saved_numbers.hpp"
 
 namespace rondo::rom {
 namespace {
-
-using Eigen::Index;
 
 constexpr std::size_t own_numbers = 8;  ///< spin, first sector, forces at the end
 
@@ -24,10 +21,7 @@ std::size_t creep_numbers(const SolidRing& ring, const WheelModel& model) noexce
 }  // namespace
 
 std::size_t SolidWheel::n_numbers(const SolidRing& ring, const WheelModel& model) noexcept {
-  Index n = 0;
-  for (const RingHarmonic& h : model.harmonics)
-    n += static_cast<Index>(6 + 2 * model.branches.size()) * h.squares.size();
-  return own_numbers + at(n) + creep_numbers(ring, model) +
+  return own_numbers + n_mode_numbers(model) + creep_numbers(ring, model) +
          numbers_of_node * ring.contact.size() * at(ring.n_sectors());
 }
 
@@ -50,11 +44,7 @@ std::vector<double> SolidWheel::save() const {
   out.reserve(n_numbers(ring_, model_));
   put(last_.force, out);
   put(last_.moment, out);
-  for (const Modes& s : modes_) {
-    put(s.state, out);
-    put(s.force, out);
-    for (Index b = 0; b < s.strain.end.cols(); ++b) put(s.strain.end.col(b), out);
-  }
+  save_modes(out);
   if (creep_) creep_->memory().save(out);
   for (const Memory& m : memory_) {
     for (const Vec3 x : {m.force, m.filtered, m.residual, m.place[0], m.place[1], m.place[2]})
@@ -67,20 +57,12 @@ std::vector<double> SolidWheel::save() const {
 void SolidWheel::restore(std::span<const double> numbers) {
   RONDO_DEMAND(is_saved(ring_, model_, numbers), numbers.size());
   SavedNumbers from(numbers);
-  const double spin = from.next();
+  restore_spin(from.next());
+  n_made_ = 0;
   first_ = static_cast<int>(from.next());
-  if (!has_matrices_ || spin_rate_ != 0.0 || spin_ != spin) {
-    spin_ = spin;
-    set_residual(spin_);
-    has_matrices_ = false;
-  }
   last_.force = from.vec3();
   last_.moment = from.vec3();
-  for (Modes& s : modes_) {
-    from.fill(s.state);
-    from.fill(s.force);
-    for (Index b = 0; b < s.strain.end.cols(); ++b) from.fill(s.strain.end.col(b));
-  }
+  restore_modes(from);
   if (creep_) {
     creep_->restore(from.take(creep_numbers(ring_, model_)));
     creep_->use(shares_);

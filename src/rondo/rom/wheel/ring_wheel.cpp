@@ -10,26 +10,8 @@
 #include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
-namespace {
 
 using Eigen::Index;
-
-}  // namespace
-
-RingWheel::Modes::Modes(const RingHarmonic& of, bool whole, std::size_t n_branches)
-    : strain(of.squares.size(), n_branches) {
-  const Index r = of.squares.size(), c = of.contact.rows();
-  for (Vector* v : {&state, &before, &work, &shift, &twist}) v->setZero(2 * r);
-  for (Vector* v : {&force, &outside, &held, &left, &pushed}) v->setZero(r);
-  for (Vector* v : {&ground, &contact, &shift_contact, &twist_contact, &by_rate, &by_place})
-    v->setZero(c);
-  stiff.setZero(r);
-  for (Matrix* m : {&inverse, &step}) m->setZero(r, r);
-  one.setIdentity(r, r);
-  if (whole) return;  // these are in Real
-  reply.setZero(r, c);
-  answer.setZero(c, c);
-}
 
 RingWheel::Real::Real(const Eigen::MatrixXd& shapes) : contact(shapes.transpose()) {
   const Index r = contact.rows(), c = contact.cols();
@@ -42,44 +24,28 @@ RingWheel::Real::Real(const Eigen::MatrixXd& shapes) : contact(shapes.transpose(
 
 RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::Ground& ground,
                      const WheelSettings& settings)
-    : ring_(ring),
-      harmonics_(model.harmonics),
-      model_(model),
+    : ReducedWheel(ring, model, settings, ground.bends().empty() && !ground.has_concave_corners()),
       ground_(ground),
-      settings_(settings),
-      n_contact_(static_cast<int>(ring.contact.size())),
-      flat_(ground.bends().empty() && !ground.has_concave_corners()),
+      friction_(settings.friction),
+      slip_(settings.slip),
       gap_law_(ring.contact.size() * at(ring.n_sectors())) {
   const std::vector<RingResidual>& residuals = model.residuals;
-  RONDO_DEMAND(
-      residuals.size() == model.squares.size() && (residuals.size() == 1 || residuals.size() == 3),
-      residuals.size(), model.squares.size());
-  RONDO_DEMAND(settings.dt > 0.0 && model.radius > 0.0 && settings.theta >= 0.5, settings.dt,
-               model.radius, settings.theta);
-  centrifugal_ = residuals.front().centrifugal;
   beyond_.resize(residuals.front().blocks.size() / 4);
   compliance_.resize(beyond_.size());
   made_.resize(beyond_.size());
   beyond_made_.resize(beyond_.size());
   const std::size_t n = ring.contact.size() * at(ring.n_sectors());
   memory_.resize(n);
-  for (std::size_t node = 0; node < n; ++node) {
-    sector_.push_back(static_cast<int>(node) / n_contact_);
-    local_.push_back(static_cast<int>(node) % n_contact_);
-    reference_.push_back(ring.stiffness.turn[at(sector_.back())] * arm(static_cast<int>(node)));
-  }
+  for (int node = 0; node < n_nodes(); ++node)
+    reference_.push_back(ring.stiffness.turn[at(sector(node))] * arm(node));
   active_.reserve(n);
   near_.reserve(n);
-  seen_.reserve(n);
   reply_.resize(4 * n * n);
   moved_.resize(2 * n);
-  solved_.reserve(n);
   touch_.reserve(n);
   law_.reserve(n);
   law_before_.reserve(n);
   contacts_.reserve(n);
-  for (const RingHarmonic& h : harmonics_)
-    modes_.emplace_back(h, is_whole(), model.branches.size());
   if (!model.creep.empty()) {
     creep_.emplace(model.creep, residuals, model.later, n, settings.stiffness_damping, settings.dt);
     forces_.reserve(n);
@@ -92,20 +58,6 @@ RingWheel::RingWheel(const Ring& ring, const WheelModel& model, const contact::G
   left_.emplace(arms);
   real_ = Real(harmonics_.empty() ? Eigen::MatrixXd(ring.n_contact(), 0)
                                   : Eigen::MatrixXd(harmonics_[0].contact.real()));
-}
-
-/// The residual of a spin.
-void RingWheel::set_residual(double spin) {
-  const double square = spin * spin;
-  centrifugal_.setZero();
-  for (std::size_t a = 0; a < model_.residuals.size(); ++a) {
-    double share = 1.0;
-    for (std::size_t b = 0; b < model_.residuals.size(); ++b)
-      if (b != a) share *= (square - model_.squares[b]) / (model_.squares[a] - model_.squares[b]);
-    shares_[a] = share;
-    centrifugal_ += share * model_.residuals[a].centrifugal;
-  }
-  ++version_;
 }
 
 /// The tables of a viscous wheel at the spin, by their shares.
@@ -150,20 +102,11 @@ void RingWheel::make_beyond(int to, int from) const {
   beyond_made_[p] = version_;
 }
 
-/// The strains of the branches at the end of the step.
-void RingWheel::relax_modes() {
-  for (std::size_t h = 0; h < modes_.size(); ++h)
-    modes_[h].strain.relax(branches(h), modes_[h].before, modes_[h].state);
-}
-
-/// Finds the matrices of a harmonic. With h = ½Δt the middle of the step solves
-/// [c, -h; hL, c + hD] (y_m, p_m) = (y, p + hf).
 void RingWheel::fill_step(std::size_t harmonic, double spin, double rate) {
   const RingHarmonic& of = harmonics_[harmonic];
   Modes& s = modes_[harmonic];
   const double half = 0.5 * settings_.dt;
-  s.turn = 1.0 + half * Complexes(0.0, of.k * spin);
-  s.lever = half / s.turn;
+  fill_lever(harmonic, spin);
   s.stiff = (of.squares.array() - spin * spin).matrix();
   s.twisted = rate;
   const auto damping = settings_.mass_damping + settings_.stiffness_damping * of.squares.array();
@@ -181,46 +124,7 @@ void RingWheel::fill_step(std::size_t harmonic, double spin, double rate) {
   }
   s.step = (2.0 * half * spin + half * rate * s.lever) * of.coriolis;
   s.step.diagonal().array() += s.turn + half * damping + half * s.lever * s.stiff.array();
-  branches(harmonic).add_to(s.step);
-  s.factor.compute(s.step);
-  s.inverse = s.factor.solve(s.one);
-  const double share = settings_.theta * settings_.dt * of.weight() / ring_.n_sectors();
-  s.reply.noalias() = s.inverse * of.contact.adjoint();
-  s.answer.noalias() = share * s.lever * of.contact * s.reply;
-}
-
-/// (2r) What a force on the modes does in a step.
-void RingWheel::push_by(const Modes& s, const Vector& force, Vector& out) const {
-  const Index r = s.stiff.size();
-  out.tail(r).noalias() = s.inverse * force;
-  out.tail(r) *= settings_.dt;
-  out.head(r) = s.lever * out.tail(r);
-}
-
-/// The matrices of a step, and the answers of the contact nodes at its end.
-void RingWheel::use_spin(const WheelMotion& m) {
-  const double rate = m.kept_spin ? 0.0 : m.spin_rate, end = m.kept_spin.value_or(m.spin_next);
-  const bool same = has_matrices_ && spin_rate_ == 0.0 && spin_ == end;
-  new_table_ = rate != 0.0 || !same;
-  if (new_table_) take_spin(m, rate, end);
-  if (m.kept_spin && !has_shift_) shift_modes();
-}
-
-void RingWheel::take_spin(const WheelMotion& m, double rate, double end) {
-  residual_before_ = residual_stored();
-  spin_ = end;
-  spin_rate_ = rate;
-  has_matrices_ = true;
-  const double dt = settings_.dt;
-  const double spin = rate == 0.0 ? end : (m.angle_next - m.angle) / dt;
-  set_residual(end);
-  for (std::size_t h = 0; h < harmonics_.size(); ++h) fill_step(h, spin, rate);
-  has_shift_ = false;
-}
-
-/// The angle at which the modes are at the end of the step.
-double RingWheel::waves_at(const WheelMotion& m) const noexcept {
-  return m.kept_spin ? m.angle + settings_.dt * *m.kept_spin : m.angle_next;
+  factorise(harmonic);
 }
 
 /// W[lag] = G[lag]/(1 + β/Δt) + the modes' answer of a pair, made when it is asked for.
@@ -313,9 +217,7 @@ void RingWheel::move_modes(const WheelMotion& m) {
     s.pushed += p - s.lever * s.stiff.cwiseProduct(y);
     if (creep_) s.strain.take_from(branches(h), s.pushed);
     if (s.twisted != 0.0) s.pushed.noalias() -= s.lever * s.twisted * (of.coriolis * y);
-    s.state.tail(r).noalias() = s.inverse * s.pushed;  // the middle
-    s.state.head(r) = 2.0 * (y / s.turn + s.lever * s.state.tail(r)) - y;
-    s.state.tail(r) = 2.0 * s.state.tail(r) - p;
+    finish_middle(h);
   }
   move_contact();
 }

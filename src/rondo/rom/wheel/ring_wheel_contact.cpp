@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "rondo/core/index.hpp"
-#include "rondo/rom/wheel/landing.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
@@ -80,17 +79,9 @@ Vec2 RingWheel::distance(const Near& near, const WheelMotion& m) const {
   const Vec2 way = m.center_next - m.center;
   if (was.known == 0)  // it comes into sight: as if it only turned
     return way + near.free - conj(rotation(m.angle_next - m.angle)) * near.free;
-  const Vec2 x = was.place[0];
-  if (was.known < 2) return way + near.free - x;
-  if (settings_.slip == SlipRule::bdf2)
-    return (2.0 / 3.0) * (way + 1.5 * near.free - 2.0 * x + 0.5 * was.place[1]);
-  if (was.status != Status::open || was.gap[0] <= 0.0) return way + near.free - x;
-  const double bend = 0.5 * m.spin_next * m.spin_next * model_.radius * settings_.dt * settings_.dt;
-  const double tau = landing(was.gap[0], was.gap[0] - was.gap[1] + bend, bend);
-  const Vec2 change = x - was.place[1];
-  const Vec2 second = was.known < 3 ? Vec2{} : x - 2.0 * was.place[1] + was.place[2];
-  const Vec2 before = tau * (change + 0.5 * second) + 0.5 * tau * tau * second;
-  return (1.0 - tau) * way + near.free - x - before;
+  if (slip_ == SlipRule::bdf2 && was.known >= 2)
+    return (2.0 / 3.0) * (way + 1.5 * near.free - 2.0 * was.place[0] + 0.5 * was.place[1]);
+  return was.slid(way, near.free, was.status != Status::open, bend_of(m));
 }
 
 /// Finds what forces on a near node do to the places of all of them.
@@ -239,19 +230,7 @@ void RingWheel::solve(const WheelMotion& m, WheelReport& report) {
   }
 }
 
-/// Adds a force in the frame of its sector to those on the modes; end_push() makes them theirs.
-void RingWheel::push_modes(const Near& near, Vec2 own) {
-  const Index row = Index{2} * local(near.node);
-  const Vec2 part = own / static_cast<double>(ring_.n_sectors());
-  if (is_whole()) real_.push += real_.on_modes(near.node, own);
-  for_waves(waves_of_sectors(), near.wave, [&](std::size_t h, Complex wave) {
-    const Complexes back(wave.re, -wave.im);
-    modes_[h].ground[row] += part.x * back;
-    modes_[h].ground[row + 1] += part.y * back;
-  });
-}
-
-/// φ_cᴴ of what push_modes() added since the last time.
+/// φ_cᴴ of what push_modes() and, of a ring of one sector, real_.push added since the last time.
 void RingWheel::end_push() {
   for (std::size_t h = 0; h < modes_.size(); ++h) {
     Modes& s = modes_[h];
@@ -285,7 +264,8 @@ void RingWheel::take_forces(const WheelMotion& m, WheelReport& report) {
     report.force += force;
     report.torque += cross(near.place, force);
     const Vec2 own = near.own = conj(near.turn) * force;
-    push_modes(near, own);
+    push_modes(near.node, near.wave, own);
+    if (is_whole()) real_.push += real_.on_modes(near.node, own);
     if (creep_) {
       forces_.push_back({near.node, own});
       continue;
@@ -335,10 +315,7 @@ void RingWheel::remember(const WheelMotion& m) {
   seen_.clear();
   for (const Near& near : near_) {
     Memory& memory = memory_of(near.node);
-    memory.place = {near.place, memory.place[0], memory.place[1]};
-    memory.gap = {ground_.facet_near(m.center_next + near.place).gap, memory.gap[0]};
-    memory.known = std::min(3, memory.known + 1);
-    memory.force = near.own;
+    memory.keep(near.place, ground_.facet_near(m.center_next + near.place).gap, near.own);
     seen_.push_back(near.node);
   }
   for (std::size_t l = 0; l < solved_.size(); ++l) {

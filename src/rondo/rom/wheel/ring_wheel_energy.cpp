@@ -8,15 +8,12 @@
 #include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
-namespace {
 
 using Eigen::Index;
 
-}  // namespace
-
 /// Σ aᵀ G b of the filtered forces at both ends of the step.
-RingWheel::Products RingWheel::products() const {
-  Products sum;
+ResidualProducts RingWheel::products() const {
+  ResidualProducts sum;
   for (const int i : active_) {
     Vec2 now, before;
     for (const int j : active_) {
@@ -31,21 +28,6 @@ RingWheel::Products RingWheel::products() const {
     sum.start += dot(to.filtered_before, before);
   }
   return sum;
-}
-
-/// Work of the ground's forces on the modes in the step.
-double RingWheel::work_on_modes() const {
-  double power = 0.0;
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    const Modes& s = modes_[h];
-    const Index r = s.stiff.size();
-    Complexes sum = 0.0;
-    for (Index j = 0; j < r; ++j)
-      sum +=
-          std::conj(s.before[r + j] + s.state[r + j]) * (s.held[j] + settings_.theta * s.force[j]);
-    power += 0.5 * harmonics_[h].weight() * sum.real();
-  }
-  return settings_.dt * ring_.n_sectors() * power;
 }
 
 /// Energy of the modes and what is done to them, but for the forces of the ground.
@@ -78,39 +60,18 @@ void RingWheel::account_modes(const WheelMotion& m, WheelEnergy& e) const {
   }
 }
 
-/// What viscous branches of the modes store and take, and the work against the forces of the modes.
-void RingWheel::account_branches(WheelEnergy& e) const {
-  for (std::size_t h = 0; h < modes_.size(); ++h)
-    modes_[h].strain.account(branches(h), modes_[h].before, modes_[h].state,
-                             harmonics_[h].weight() * ring_.n_sectors(), e);
-}
-
-/// What the residual of a viscous wheel stores and takes.
-RingWheel::Products RingWheel::account_creep(WheelEnergy& e) const {
-  const CreepEnergy of = creep_->memory().energy(shares_);
-  e.by_residual = of.by_stiffness;
-  e.viscous += of.lost - of.by_stiffness;
-  e.internal += of.work - of.by_stiffness;
-  return {2.0 * of.at_end, 0.0, 2.0 * of.at_start};
-}
-
 void RingWheel::account(const WheelMotion& m, WheelReport& report) {
   const double dt = settings_.dt;
   WheelEnergy& e = report.energy;
   account_modes(m, e);
   if (creep_) account_branches(e);
   const double viscous_modes = e.viscous;
-  const Products of = creep_ ? account_creep(e) : products();
-  e.residual = 0.5 * of.end;
-  e.stored += e.residual;
-  const double by_table =
-      new_table_ && (m.kept_spin || m.spin_rate != 0.0) ? 0.5 * of.start - residual_before_ : 0.0;
-  if (!m.kept_spin) e.frame += by_table;
+  const ResidualProducts of = creep_ ? account_creep(creep_->memory(), e) : products();
   if (!creep_)
     e.by_residual = settings_.stiffness_damping / dt * (of.end - 2.0 * of.across + of.start);
-  e.internal += by_table;
+  const double by_table = account_residual(m, of, e);
   const Complex back = rotation(m.angle - m.angle_next);  // the force before does not turn on
-  const double slides = settings_.slip == SlipRule::bdf2 ? 1.5 : 1.0;
+  const double slides = slip_ == SlipRule::bdf2 ? 1.5 : 1.0;
   for (std::size_t i = 0; i < solved_.size(); ++i) {
     const Near& near = near_[solved_[i]];
     const GapContact& c = law_[i];
@@ -120,10 +81,11 @@ void RingWheel::account(const WheelMotion& m, WheelReport& report) {
     if (was.known > 0) e.arrival += c.normal * (was.gap[0] - c.gap);
   }
   e.rim = dot(report.force, m.center_next - m.center) + (m.angle_next - m.angle) * report.torque;
-  e.scheme =
-      work_on_modes() + 0.5 * (of.end - of.start) + e.by_residual + e.friction + e.arrival + e.rim;
+  e.scheme += e.friction;
+  e.scheme += e.arrival;
+  e.scheme += e.rim;
   e.scheme += e.viscous - viscous_modes;
-  if (m.kept_spin) e.scheme += by_table;
+  e.scheme += by_table;
 }
 
 WheelEnergy RingWheel::energy_at_start(bool softened) const {

@@ -20,30 +20,21 @@ constexpr double touching_share = 1e-6;  ///< of the radius: nodes that near tou
 }  // namespace
 
 void RingWheel::begin(const WheelMotion& m) {
-  WheelMotion still = m;
-  still.angle = m.angle_next - m.spin_next * settings_.dt;
-  still.spin_rate = 0.0;
-  use_spin(still);
+  use_spin(still(m));
   for (Memory& memory : memory_) memory = {};
   active_.clear();
   seen_.clear();
   if (creep_) creep_->clear();
   if (sliding_) sliding_->clear();
-  for (Modes& s : modes_) {
-    s.strain.end.setZero();
-    s.state.setZero();
-    s.force.setZero();
-  }
+  rest_modes();
 }
 
 /// What the modes do to the contact nodes.
 void RingWheel::move_contact() {
-  for (std::size_t h = 0; h < modes_.size(); ++h)
-    if (is_whole())
-      real_.place = modes_[h].state.head(real_.place.size()).real();
-    else
-      modes_[h].contact.noalias() =
-          harmonics_[h].contact * modes_[h].state.head(harmonics_[h].squares.size());
+  if (!is_whole())
+    ReducedWheel::move_contact();
+  else if (!modes_.empty())
+    real_.place = modes_[0].state.head(real_.place.size()).real();
 }
 
 /// Places of the nodes near the ground at the start.
@@ -66,9 +57,7 @@ std::vector<std::size_t> RingWheel::touching(const WheelMotion& m, std::span<con
   const Complex frame = rotation(m.angle_next);
   for (std::size_t i = 0; i < near_.size(); ++i) {
     Near& near = near_[i];
-    const std::size_t row = at(ring_.contact[at(local(near.node))]);
-    const Vec2 place =
-        near.turn * arm(near.node) + frame * u[ring_.stiffness.node(row, at(sector(near.node)))];
+    const Vec2 place = near.turn * arm(near.node) + frame * u[node_of(near.node)];
     if (ground_.facet_near(m.center_next + place).gap > touching_share * model_.radius) continue;
     near.place = place;
     nodes.push_back(i);
@@ -118,7 +107,8 @@ void RingWheel::press_at_start(const WheelMotion& m, std::span<const Vec2> u) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Near& near = near_[nodes[i]];
     near.own = own(i);
-    push_modes(near, near.own);
+    push_modes(near.node, near.wave, near.own);
+    if (is_whole()) real_.push += real_.on_modes(near.node, near.own);
     if (creep_) {
       forces_.push_back({near.node, near.own});
     } else {
@@ -167,26 +157,6 @@ void RingWheel::start(const WheelMotion& m, std::span<const Vec2> u, std::span<c
   project(m.angle_next, u, false);
   project(m.angle_next, v, true);
   look_at_start(m, u, v);
-}
-
-/// φᴴ M of a field, harmonic by harmonic.
-void RingWheel::project(double angle, std::span<const Vec2> field, bool velocity) {
-  const Complex frame = rotation(angle);
-  for (int j = 0; j < ring_.n_sectors(); ++j) {
-    const Complex turn = ring_.stiffness.turn[at(j)];
-    for_waves(harmonics_, conj(frame * turn), [&](std::size_t h, Complex back) {
-      const Matrix& shapes = harmonics_[h].shapes;
-      const Index r = shapes.cols();
-      const Complexes part = Complexes(back.re, back.im) / static_cast<double>(ring_.n_sectors());
-      for (Index a = 0; a < ring_.n_rows(); a += 2) {
-        const Vec2 x = conj(turn) * field[ring_.stiffness.node(at(a / 2), at(j))];
-        const double mass = ring_.mass[at(a / 2)];
-        for (Index c = 0; c < r; ++c)
-          modes_[h].state[(velocity ? r : 0) + c] +=
-              part * mass * (std::conj(shapes(a, c)) * x.x + std::conj(shapes(a + 1, c)) * x.y);
-      }
-    });
-  }
 }
 
 /// (rows) What the filtered forces do beyond the modes, of a ring of one sector, where the tables
@@ -247,10 +217,9 @@ void RingWheel::write_field(double angle, const Eigen::VectorXd& constant,
 
 void RingWheel::contact_displacement(double angle, std::span<Vec2> u) const {
   const Complex frame = rotation(angle);
-  for (int node = 0, n = static_cast<int>(memory_.size()); node < n; ++node) {
-    const auto row = at(ring_.contact[at(local(node))]), j = at(sector(node));
-    const Complex turn = ring_.stiffness.turn[j];
-    u[ring_.stiffness.node(row, j)] = turn * displacement(node, frame * turn, Forces::now);
+  for (int node = 0; node < n_nodes(); ++node) {
+    const Complex turn = ring_.stiffness.turn[at(sector(node))];
+    u[node_of(node)] = turn * displacement(node, frame * turn, Forces::now);
   }
 }
 
@@ -267,11 +236,7 @@ void RingWheel::displacement(double angle, std::span<Vec2> u) const {
 
 void RingWheel::velocity(double angle, std::span<Vec2> v) const {
   write_field(
-      angle, Eigen::VectorXd::Zero(ring_.n_rows()),
-      [&](std::size_t h) {
-        const Index r = harmonics_[h].squares.size();
-        return Vector(0.5 * (modes_[h].before.tail(r) + modes_[h].state.tail(r)));
-      },
+      angle, Eigen::VectorXd::Zero(ring_.n_rows()), [&](std::size_t h) { return mean_velocity(h); },
       [&](int node) {
         const double dt = settings_.dt;
         if (!creep_) {

@@ -30,7 +30,7 @@ Vec2 RingWheel::place_before(const Near& near, const WheelMotion& m) const {
 
 /// μ of a candidate by the step before.
 double RingWheel::friction_of(std::size_t candidate, const WheelMotion& m) const {
-  if (!sliding_) return settings_.friction.constant();
+  if (!sliding_) return friction_.constant();
   const Near& near = near_[solved_[candidate]];
   return sliding_->before(near.node, place_before(near, m), tangent_of(touch_[candidate].normal));
 }

@@ -39,40 +39,6 @@ WheelSums RingWheel::sums() const {
   return sum;
 }
 
-/// What a unit acceleration along x does to the modes, and how momenta see new forces through them.
-void RingWheel::shift_modes() {
-  has_shift_ = true;
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    Modes& s = modes_[h];
-    const RingHarmonic& of = harmonics_[h];
-    if (of.k > 1) return;
-    const Index r = of.squares.size();
-    const Matrix rate = settings_.dt * (s.inverse * of.contact.adjoint()), place = s.lever * rate;
-    if (of.k == 0) {
-      s.by_rate = settings_.theta * (of.turned.adjoint() * rate).transpose();
-      s.by_place = settings_.theta * (of.reference.adjoint() * place).transpose();
-      continue;
-    }
-    push_by(s, -0.5 * of.translation.conjugate(), s.shift);
-    s.shift_contact = of.contact * s.shift.head(r);
-    s.by_rate = settings_.theta * (of.translation.transpose() * rate).adjoint();
-    s.by_place = settings_.theta * (of.translation.transpose() * place).adjoint();
-  }
-}
-
-/// What a unit acceleration of the angle does to the modes.
-void RingWheel::twist_modes() {
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    Modes& s = modes_[h];
-    const RingHarmonic& of = harmonics_[h];
-    const Index r = of.squares.size();
-    s.pushed.noalias() = -of.coriolis * s.before.head(r);
-    if (of.k == 0) s.pushed -= of.turned;
-    push_by(s, s.pushed, s.twist);
-    s.twist_contact.noalias() = of.contact * s.twist.head(r);
-  }
-}
-
 /// Columns: momenta at the end of the step by unit accelerations of x, y and the angle.
 Eigen::Matrix3d RingWheel::momenta_by_rate(double spin) const {
   Eigen::Matrix3d by = Eigen::Matrix3d::Zero();
@@ -132,12 +98,7 @@ void RingWheel::find_columns(const WheelMotion& m) {
 /// Places without new forces under accelerations, and what new forces do to these.
 void RingWheel::accelerate_near(const RimVector& z, const Eigen::Matrix3d& answer) {
   for (Near& near : near_) {
-    for (Index k = 0; k < 3; ++k)
-      near.reply[at(k)] =
-          answer(k, 0) * near.push[0] + answer(k, 1) * near.push[1] + answer(k, 2) * near.push[2];
-    near.free = near.place =
-        near.still + z[0] * near.moved[0] + z[1] * near.moved[1] + z[2] * near.moved[2];
-    near.candidate = false;
+    near.accelerate(z, answer);
     near.column = -1;
   }
   n_columns_ = 0;
@@ -183,16 +144,6 @@ WheelRim::End RingWheel::end_of(const WheelReport& report, double ahead) const {
     if (of.k == 1) end.middle += static_cast<double>(ring_.n_sectors()) * vec(along_rim(of, rate));
   }
   return end;
-}
-
-/// Turns what the modes refer to by an angle; nodes stay where they are.
-void RingWheel::turn_modes(double angle) {
-  for (std::size_t h = 0; h < modes_.size(); ++h) {
-    const Complex back = rotation(-harmonics_[h].k * angle);
-    modes_[h].state *= Complexes(back.re, back.im);
-    modes_[h].force *= Complexes(back.re, back.im);
-    modes_[h].strain.end *= Complexes(back.re, back.im);
-  }
 }
 
 WheelReport RingWheel::step(long long n, WheelRim& rim, dynamics::Works& works) {

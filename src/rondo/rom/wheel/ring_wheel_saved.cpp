@@ -7,27 +7,22 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
-#include "rondo/rom/wheel/saved_numbers.hpp"
 
 namespace rondo::rom {
 namespace {
 
 using contact::Status;
-using Eigen::Index;
 
 }  // namespace
 
 std::size_t RingWheel::n_numbers(const Ring& ring, const WheelModel& model,
                                  const contact::Friction& friction) noexcept {
-  Index n = 1;
-  const auto per_mode = static_cast<Index>(6 + 2 * model.branches.size());
-  for (const RingHarmonic& h : model.harmonics) n += per_mode * h.squares.size();
   const std::size_t nodes = ring.contact.size() * at(ring.n_sectors());
   const std::size_t creep =
       model.creep.empty() ? 0
                           : CreepField::n_saved(model.creep.size(), model.residuals.size(), nodes);
   const std::size_t sliding = friction.is_constant() ? 0 : SlidingMemory::numbers_of_node * nodes;
-  return at(n) + creep + sliding + numbers_of_node * nodes;
+  return 1 + n_mode_numbers(model) + creep + sliding + numbers_of_node * nodes;
 }
 
 /// Modes take any finite numbers; nodes have counts and statuses among theirs, which are checked.
@@ -49,12 +44,8 @@ bool RingWheel::is_saved(const Ring& ring, const WheelModel& model,
 
 std::vector<double> RingWheel::save() const {
   std::vector<double> out{spin_};
-  out.reserve(n_numbers(ring_, model_, settings_.friction));
-  for (const Modes& s : modes_) {
-    put(s.state, out);
-    put(s.force, out);
-    for (Index b = 0; b < s.strain.end.cols(); ++b) put(s.strain.end.col(b), out);
-  }
+  out.reserve(n_numbers(ring_, model_, friction_));
+  save_modes(out);
   if (creep_) creep_->memory().save(out);
   if (sliding_) sliding_->save(out);
   for (const Memory& m : memory_) {
@@ -67,19 +58,10 @@ std::vector<double> RingWheel::save() const {
 }
 
 void RingWheel::restore(std::span<const double> numbers) {
-  RONDO_DEMAND(is_saved(ring_, model_, settings_.friction, numbers), numbers.size());
+  RONDO_DEMAND(is_saved(ring_, model_, friction_, numbers), numbers.size());
   SavedNumbers from(numbers);
-  const double spin = from.next();
-  if (!has_matrices_ || spin_rate_ != 0.0 || spin_ != spin) {
-    spin_ = spin;
-    set_residual(spin_);
-    has_matrices_ = false;
-  }
-  for (Modes& s : modes_) {
-    from.fill(s.state);
-    from.fill(s.force);
-    for (Index b = 0; b < s.strain.end.cols(); ++b) from.fill(s.strain.end.col(b));
-  }
+  restore_spin(from.next());
+  restore_modes(from);
   if (creep_)
     creep_->restore(from.take(
         CreepField::n_saved(model_.creep.size(), model_.residuals.size(), memory_.size())));
