@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 
 #include "rondo/core/index.hpp"
@@ -20,7 +19,8 @@ std::string in_the_ground(double above, double rim) {
 class PlaneWheel final : public LedWheel {
  public:
   PlaneWheel(const study::Setup& setup, study::PreparedWheel& wheel, const dynamics::State& start)
-      : model_(setup.model), run_(setup.model, *wheel.ring, wheel.model, wheel.figures, start) {}
+      : LedWheel(setup.model, run_),
+        run_(setup.model, *wheel.ring, wheel.model, wheel.figures, start) {}
 
   void begin(const rom::HubVelocity& from) override {
     sums_ = {};
@@ -28,7 +28,7 @@ class PlaneWheel final : public LedWheel {
   }
   const dynamics::StepReport& step(const rom::HubVelocity& to) override {
     run_.lead({to.along.x, to.along.y, to.spin});
-    run_.advance(report_);
+    make_step();
     sums_.held += last().rim.force;
     sums_.torque += last().rim.torque;
     sums_.contact += last().contact.impulse.plane() / model_.dt;
@@ -41,11 +41,11 @@ class PlaneWheel final : public LedWheel {
     const double n = sums_.n, length = n * model_.dt;
     const Vec2 rate = (to_.along - from_.along).plane() / length,
                gravity = model_.motion.gravity_at(0.0);
-    const double mass = run_.rim()->whole_mass();
+    const double mass = rim().whole_mass();
     to.force_x = width * (mass * (rate.x - gravity.x) - sums_.held.x / n);
     to.force_up = width * (mass * (rate.y - gravity.y) - sums_.held.y / n);
-    to.torque = width * (-run_.rim()->whole_inertia() * (to_.spin - from_.spin) / length -
-                         sums_.torque / n);
+    to.torque =
+        width * (-rim().whole_inertia() * (to_.spin - from_.spin) / length - sums_.torque / n);
     to.contact_force_x = width * sums_.contact.x / n;
     to.contact_force_up = width * sums_.contact.y / n;
     const Vec2 center = last().frame.center.plane();
@@ -55,16 +55,10 @@ class PlaneWheel final : public LedWheel {
     to.loaded_radius = model_.contact->ground.distance(center);
     to.contact_length = last().contact.length;
   }
-  void weigh(Values& to) const override {
-    to.tyre_mass = run_.rim()->whole_mass();
-    to.tyre_inertia = run_.rim()->whole_inertia();
-  }
   [[nodiscard]] std::string misplaced(double rim) const override {
     const double above = model_.contact->ground.distance(last().frame.center.plane());
     return above > rim ? std::string() : in_the_ground(above, rim);
   }
-  [[nodiscard]] dynamics::SavedState save() const override { return run_.save(); }
-  void restore(const dynamics::SavedState& saved) override { run_.restore(saved); }
 
  private:
   /// What the steps since the last communication point have added up.
@@ -73,20 +67,16 @@ class PlaneWheel final : public LedWheel {
     double torque = 0.0;
     int n = 0;
   };
-  [[nodiscard]] const dynamics::StepReport& last() const noexcept { return report_[0]; }
-
-  const dynamics::Model& model_;
   rom::WheelRun run_;
   rom::HubVelocity from_, to_;
   Sums sums_;
-  std::array<dynamics::StepReport, 1> report_;
 };
 
 class SpaceWheel final : public LedWheel {
  public:
   SpaceWheel(const study::Setup& setup, study::PreparedWheel& wheel, const dynamics::State& start,
              const rom::HubStart& hub)
-      : model_(setup.model),
+      : LedWheel(setup.model, run_),
         run_(setup.model, *wheel.solid, wheel.model, wheel.law_residual, wheel.figures, start,
              hub) {}
 
@@ -97,7 +87,7 @@ class SpaceWheel final : public LedWheel {
   }
   const dynamics::StepReport& step(const rom::HubVelocity& to) override {
     run_.lead(to);
-    run_.advance(report_);
+    make_step();
     add_step(to);
     return last();
   }
@@ -127,8 +117,7 @@ class SpaceWheel final : public LedWheel {
     to.contact_length = last().contact.length;
   }
   void weigh(Values& to) const override {
-    to.tyre_mass = run_.rim()->whole_mass();
-    to.tyre_inertia = run_.rim()->whole_inertia();
+    LedWheel::weigh(to);
     double aside = 0.0;
     for (const int k : model_.free) {
       const double z = model_.solid->axial[at(k)];
@@ -143,8 +132,6 @@ class SpaceWheel final : public LedWheel {
     const double along = above() / std::cos(run_.camber());
     return along > rim ? std::string() : in_the_ground(along, rim);
   }
-  [[nodiscard]] dynamics::SavedState save() const override { return run_.save(); }
-  void restore(const dynamics::SavedState& saved) override { run_.restore(saved); }
 
  private:
   /// What the steps since the last communication point have added up. Components are along the
@@ -155,7 +142,6 @@ class SpaceWheel final : public LedWheel {
     int n = 0;
   };
 
-  [[nodiscard]] const dynamics::StepReport& last() const noexcept { return report_[0]; }
   [[nodiscard]] rom::WheelAttitude attitude() const noexcept {
     return rom::WheelAttitude(run_.camber(), run_.yaw());
   }
@@ -171,8 +157,8 @@ class SpaceWheel final : public LedWheel {
     const rom::HubReport& hub = run_.hub();
     const double dt = model_.dt, camber = run_.camber(), lean = std::tan(camber);
     sums_.force +=
-        run_.rim()->whole_mass() * now.to_heading((velocity - velocity_) / dt - gravity) - hub.held;
-    const double torque = hub.torque - run_.rim()->whole_inertia() * (to.spin - spin_) / dt;
+        rim().whole_mass() * now.to_heading((velocity - velocity_) / dt - gravity) - hub.held;
+    const double torque = hub.torque - rim().whole_inertia() * (to.spin - spin_) / dt;
     sums_.torque += torque;
     // The axle to the left is (0, -sin γ, -cos γ) along the heading, n and t2.
     sums_.moment +=
@@ -185,15 +171,18 @@ class SpaceWheel final : public LedWheel {
     spin_ = to.spin;
   }
 
-  const dynamics::Model& model_;
   rom::SolidWheelRun run_;
   Vec3 velocity_;      ///< of the hub at the end of the last step, fixed axes           [m/s]
   double spin_ = 0.0;  ///< and its spin                                               [rad/s]
   Sums sums_;
-  std::array<dynamics::StepReport, 1> report_;
 };
 
 }  // namespace
+
+void LedWheel::weigh(Values& to) const {
+  to.tyre_mass = rim().whole_mass();
+  to.tyre_inertia = rim().whole_inertia();
+}
 
 rom::HubVelocity velocities(const Values& v) noexcept {
   rom::HubVelocity hub;

@@ -2,8 +2,8 @@
 /// @file  The steps of a reduced wheel whose hub is led, in the plane or in three dimensions, and
 /// what the hub feels in an interval of them: equations (F.1), (F.2) and (F.3) of docs/fmu.md.
 #pragma once
+#include <array>
 #include <memory>
-#include <span>
 #include <string>
 
 #include "rondo/analysis/reduced/prepare_wheel.hpp"
@@ -31,15 +31,27 @@ class LedWheel {
   virtual void fill(double height, double width, Values& to) const = 0;
   /// Mass, and inertia about the axle and about a diameter, of a rim without mass and the body,
   /// undeformed; of a metre of width in the plane.
-  virtual void weigh(Values& to) const = 0;
+  virtual void weigh(Values& to) const;
   /// What is wrong with where the hub is, in words; empty: nothing. @param rim its radius [m]
   [[nodiscard]] virtual std::string misplaced(double rim) const = 0;
 
-  [[nodiscard]] virtual dynamics::SavedState save() const = 0;
-  virtual void restore(const dynamics::SavedState& saved) = 0;
+  [[nodiscard]] dynamics::SavedState save() const { return run_.save(); }
+  void restore(const dynamics::SavedState& saved) { run_.restore(saved); }
 
  protected:
-  LedWheel() = default;
+  /// Both must outlive it. @param run of the class that is derived
+  LedWheel(const dynamics::Model& model, rom::ReducedRun& run) noexcept
+      : model_(model), run_(run) {}
+
+  void make_step() { run_.advance(report_); }
+  [[nodiscard]] const dynamics::StepReport& last() const noexcept { return report_[0]; }
+  [[nodiscard]] const rom::WheelRim& rim() const noexcept { return *run_.rim(); }
+
+  const dynamics::Model& model_;
+
+ private:
+  rom::ReducedRun& run_;
+  std::array<dynamics::StepReport, 1> report_;
 };
 
 /// The wheel at t = 0. All must outlive it. @param values velocities and place of the hub

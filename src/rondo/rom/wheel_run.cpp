@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rondo/core/index.hpp"
+#include "rondo/rom/wheel/ring_candidates.hpp"
 
 namespace rondo::rom {
 namespace {

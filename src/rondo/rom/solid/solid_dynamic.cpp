@@ -48,46 +48,6 @@ MatrixXcd without_modes(MatrixXcd u, const RingHarmonic* h, const MatrixXcd& mod
 
 }  // namespace
 
-VectorXd masses(const SolidRing& ring) {
-  VectorXd m(ring.n_rows());
-  for (Index a = 0; a < m.size(); ++a) m[a] = ring.mass[at(a / 3)];
-  return m;
-}
-
-VectorXcd reference_of(const SolidRing& ring) {
-  VectorXcd x = VectorXcd::Zero(ring.n_rows());
-  for (std::size_t a = 0; a < ring.place.size(); ++a) {
-    x[static_cast<Index>(3 * a)] = ring.place[a].x;
-    x[static_cast<Index>(3 * a + 1)] = ring.place[a].y;
-  }
-  return x;
-}
-
-VectorXcd load_of(const SolidRing& ring) {
-  VectorXcd f = VectorXcd::Zero(ring.n_rows());
-  for (std::size_t a = 0; a < ring.load.size(); ++a) {
-    const Index row = static_cast<Index>(3 * a);
-    f[row] = ring.load[a].x;
-    f[row + 1] = ring.load[a].y;
-    f[row + 2] = ring.load[a].z;
-  }
-  return f;
-}
-
-std::vector<Index> contact_rows(const SolidRing& ring) {
-  std::vector<Index> rows;
-  for (const int a : ring.contact)
-    rows.insert(rows.end(), {Index{3} * a, Index{3} * a + 1, Index{3} * a + 2});
-  return rows;
-}
-
-MatrixXcd unit_forces(const SolidRing& ring) {
-  const std::vector<Index> rows = contact_rows(ring);
-  MatrixXcd forces = MatrixXcd::Zero(ring.n_rows(), ring.n_contact());
-  for (std::size_t c = 0; c < rows.size(); ++c) forces(rows[c], static_cast<Index>(c)) = 1.0;
-  return forces;
-}
-
 HarmonicStiffness::HarmonicStiffness(const fem::SolidSector& of) : n_(of.n_sectors) {
   std::array<std::vector<Eigen::Triplet<Complexes>>, 3> entries;
   for (std::size_t a = 0; a < of.n_local(); ++a)

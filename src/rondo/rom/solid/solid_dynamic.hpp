@@ -11,22 +11,12 @@
 #include <vector>
 
 #include "rondo/rom/solid/solid_ring.hpp"
+#include "rondo/rom/wheel/ring_rows.hpp"
 
 namespace rondo::rom {
 
 using SparseComplex = Eigen::SparseMatrix<std::complex<double>>;
 using SparseFactor = Eigen::SimplicialLDLT<SparseComplex, Eigen::Lower, Eigen::AMDOrdering<int>>;
-
-/// (rows) mass of each row.
-[[nodiscard]] Eigen::VectorXd masses(const SolidRing& ring);
-/// (rows) X in the plane.
-[[nodiscard]] Eigen::VectorXcd reference_of(const SolidRing& ring);
-/// (rows) The constant load.
-[[nodiscard]] Eigen::VectorXcd load_of(const SolidRing& ring);
-/// (3C) rows of the contact nodes.
-[[nodiscard]] std::vector<Eigen::Index> contact_rows(const SolidRing& ring);
-/// (rows, 3C) Unit forces on the contact nodes.
-[[nodiscard]] Eigen::MatrixXcd unit_forces(const SolidRing& ring);
 
 /// K(k) of a ring at all k, from the three matrices that couple a sector with its neighbours.
 class HarmonicStiffness {

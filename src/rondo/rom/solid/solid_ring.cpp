@@ -19,21 +19,12 @@ using Eigen::Index, Eigen::MatrixXcd, Eigen::VectorXcd, Eigen::VectorXd;
 
 constexpr Complexes i{0.0, 1.0};
 
-/// J u of each node: a quarter turn about the axle.
-MatrixXcd quarter_turned(const MatrixXcd& u) {
-  MatrixXcd out = MatrixXcd::Zero(u.rows(), u.cols());
-  for (Index a = 0; a < u.rows(); a += 3) {
-    out.row(a) = -u.row(a + 1);
-    out.row(a + 1) = u.row(a);
-  }
-  return out;
-}
-
 MatrixXcd in_plane(MatrixXcd u) {
   for (Index a = 2; a < u.rows(); a += 3) u.row(a).setZero();
   return u;
 }
 
+/// As make_harmonic() of a ring in the plane. Both sum over the rows in an order of their own.
 RingHarmonic make_harmonic(const SolidRing& ring, int k, VectorXd squares, MatrixXcd shapes) {
   RingHarmonic h;
   const VectorXd mass = masses(ring);
@@ -42,7 +33,7 @@ RingHarmonic make_harmonic(const SolidRing& ring, int k, VectorXd squares, Matri
   h.shapes = std::move(shapes);
   h.contact = h.shapes(contact_rows(ring), Eigen::all);
   const MatrixXcd weighted = (mass.asDiagonal() * h.shapes).adjoint();
-  const MatrixXcd turning = weighted * quarter_turned(h.shapes);
+  const MatrixXcd turning = weighted * quarter_turned<3>(h.shapes);
   const MatrixXcd planar = weighted * in_plane(h.shapes);
   h.coriolis = 0.5 * (turning - turning.adjoint());
   h.planar = 0.5 * (planar + planar.adjoint());
@@ -58,7 +49,7 @@ RingHarmonic make_harmonic(const SolidRing& ring, int k, VectorXd squares, Matri
     v->setZero(r);
   if (k == 0) {
     h.reference = weighted * x;
-    h.turned = weighted * quarter_turned(x);
+    h.turned = weighted * quarter_turned<3>(x);
     h.axial = weighted * aside;
     h.load = h.shapes.adjoint() * load_of(ring);
   }
@@ -117,26 +108,16 @@ std::vector<RingHarmonic> solid_modes(const SolidRing& ring, const ModeChoice& c
   for (;;) {
 #pragma omp parallel for num_threads(ring.threads) schedule(dynamic)
     for (int k = 0; k < n_harmonics; ++k) found[at(k)] = harmonic_of(ring, stiffness, k, each);
-    struct Mode {
-      double frequency;
-      int k;
+    std::vector<VectorXd> frequencies;
+    for (const RingHarmonic& h : found) frequencies.emplace_back(h.squares.cwiseSqrt());
+    const std::vector<Index> taken = take_lowest(frequencies, choice);
+    // A harmonic whose last mode is taken may have more that are as low.
+    const auto may_have_more = [&](std::size_t k) {
+      const Index known = found[k].squares.size();
+      return taken[k] == known && known == each;
     };
-    std::vector<Mode> modes;
-    for (const RingHarmonic& h : found)
-      for (const double square : h.squares) modes.push_back({std::sqrt(square), h.k});
-    std::ranges::stable_sort(modes, {}, &Mode::frequency);
-    std::vector<Index> taken(at(n_harmonics));
-    int count = 0;
     bool all_seen = true;
-    for (const Mode& mode : modes) {
-      if (count >= choice.wanted || (mode.frequency > choice.highest && count >= choice.fewest))
-        break;
-      ++taken[at(mode.k)];
-      count += mode.k == 0 ? 1 : 2;
-      // A harmonic whose last mode is taken may have more that are as low.
-      const Index known = found[at(mode.k)].squares.size();
-      all_seen = all_seen && (taken[at(mode.k)] < known || known < each);
-    }
+    for (std::size_t k = 0; k < taken.size(); ++k) all_seen = all_seen && !may_have_more(k);
     if (!all_seen) {
       each *= 2;
       continue;

@@ -42,13 +42,13 @@ ReducedWheel<D>::ReducedWheel(const SectorRing<D>& ring, const WheelModel& model
       model_(model),
       settings_(settings),
       n_contact_(static_cast<int>(ring.contact.size())),
-      flat_(flat),
-      centrifugal_(model.residuals.front().centrifugal) {
+      flat_(flat) {
   const std::size_t tables = model.residuals.size();
   RONDO_DEMAND(tables == model.squares.size() && (tables == 1 || tables == 3), tables,
                model.squares.size());
   RONDO_DEMAND(settings.dt > 0.0 && model.radius > 0.0 && settings.theta >= 0.5, settings.dt,
                model.radius, settings.theta);
+  centrifugal_ = model.residuals.front().centrifugal;
   for (int node = 0; node < n_contact_ * ring.n_sectors(); ++node) {
     sector_.push_back(node / n_contact_);
     local_.push_back(node % n_contact_);
@@ -177,7 +177,8 @@ void ReducedWheel<D>::push_modes(int node, Complex wave, Vec force) {
   });
 }
 
-/// (r, D C) Δt inverse φ_cᴴ. Both ways round differently, and results are those of before to the bit.
+/// (r, D C) Δt inverse φ_cᴴ. Both ways round differently, and results are those of before to the
+/// bit.
 template <int D>
 typename ReducedWheel<D>::Matrix ReducedWheel<D>::reply_times_step(const Modes& s,
                                                                    const RingHarmonic& of) const {

@@ -29,6 +29,14 @@ SectorRing<D> ring_of(const fem::SectorBlocks<D>& stiffness, std::span<const dou
 
 }  // namespace
 
+Eigen::VectorXcd load_of(const SolidRing& ring) {
+  Eigen::VectorXcd f = Eigen::VectorXcd::Zero(ring.n_rows());
+  for (std::size_t a = 0; a < ring.load.size(); ++a)
+    f.segment<3>(static_cast<Eigen::Index>(3 * a)) << ring.load[a].x, ring.load[a].y,
+        ring.load[a].z;
+  return f;
+}
+
 Ring make_ring(const fem::SectorStiffness& stiffness, std::span<const double> mass,
                std::span<const Vec2> reference, std::span<const int> contact) {
   return ring_of(stiffness, mass, contact, [&](std::size_t node) { return reference[node]; });
@@ -40,36 +48,5 @@ SolidRing make_solid_ring(const fem::SolidSector& stiffness, std::span<const dou
   return ring_of(stiffness, mass, contact,
                  [&](std::size_t node) { return Vec3(reference[node], axial[node]); });
 }
-
-template <int D>
-std::vector<std::size_t> candidates_of(const SectorRing<D>& ring,
-                                       const dynamics::ContactModel& contact) {
-  const std::size_t sectors = at(ring.n_sectors());
-  const std::vector<int> place =
-      dynamics::places_among(contact.nodes, sectors * at(ring.stiffness.nodes_per_sector));
-  std::vector<std::size_t> candidates;
-  for (std::size_t j = 0; j < sectors; ++j)
-    for (const int row : ring.contact) {
-      const std::size_t node = ring.stiffness.node(at(row), j);
-      RONDO_DEMAND(place[node] >= 0, node);
-      candidates.push_back(at(place[node]));
-    }
-  return candidates;
-}
-
-template <int D>
-std::vector<double> tributaries_of(const SectorRing<D>& ring,
-                                   const dynamics::ContactModel& contact) {
-  const std::vector<std::size_t> candidates = candidates_of(ring, contact);
-  std::vector<double> tributaries;
-  for (std::size_t c = 0; c < ring.contact.size(); ++c)
-    tributaries.push_back(contact.tributary[candidates[c]]);
-  return tributaries;
-}
-
-template std::vector<std::size_t> candidates_of(const Ring&, const dynamics::ContactModel&);
-template std::vector<std::size_t> candidates_of(const SolidRing&, const dynamics::ContactModel&);
-template std::vector<double> tributaries_of(const Ring&, const dynamics::ContactModel&);
-template std::vector<double> tributaries_of(const SolidRing&, const dynamics::ContactModel&);
 
 }  // namespace rondo::rom

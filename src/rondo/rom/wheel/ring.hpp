@@ -10,7 +10,6 @@
 
 #include "rondo/core/vec3.hpp"
 #include "rondo/fem/sector_stiffness.hpp"
-#include "rondo/model/model.hpp"
 
 namespace rondo::rom {
 
@@ -37,6 +36,9 @@ struct SectorRing {
 using Ring = SectorRing<2>;
 using SolidRing = SectorRing<3>;
 
+/// (rows) The constant load of a ring in three dimensions.
+[[nodiscard]] Eigen::VectorXcd load_of(const SolidRing& ring);
+
 /// @param mass, reference, axial (n) of the nodes of the body; masses of contact nodes are 0
 /// @param contact nodes of the body, the same in every sector
 /// @pre each contact node couples with a row that has mass
@@ -47,14 +49,5 @@ using SolidRing = SectorRing<3>;
                                         std::span<const Vec2> reference,
                                         std::span<const double> axial,
                                         std::span<const int> contact);
-
-/// (N C) The candidate of the ground that each contact node is, sector after sector.
-template <int D>
-[[nodiscard]] std::vector<std::size_t> candidates_of(const SectorRing<D>& ring,
-                                                     const dynamics::ContactModel& contact);
-/// (C) The length, or the area, that a contact node of a sector stands for [m], [m²].
-template <int D>
-[[nodiscard]] std::vector<double> tributaries_of(const SectorRing<D>& ring,
-                                                 const dynamics::ContactModel& contact);
 
 }  // namespace rondo::rom

@@ -12,6 +12,7 @@
 #include "rondo/core/dense.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/rom/wheel/creep/creep_pair.hpp"
+#include "rondo/rom/wheel/ring_rows.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {
@@ -30,37 +31,8 @@ Complexes wave(int n, int k) {
 struct Parts {
   std::vector<Index> inner, contact;
 
-  explicit Parts(const Ring& ring) : inner(inner_rows(ring)) {
-    for (const int a : ring.contact)
-      contact.insert(contact.end(), {Index{2} * a, Index{2} * a + 1});
-  }
+  explicit Parts(const Ring& ring) : inner(inner_rows(ring)), contact(contact_rows(ring)) {}
 };
-
-/// (rows) mass of each row.
-VectorXd masses(const Ring& ring) {
-  VectorXd m(ring.n_rows());
-  for (Index a = 0; a < m.size(); ++a) m[a] = ring.mass[at(a / 2)];
-  return m;
-}
-
-/// J u of each node, or of each column of a matrix.
-MatrixXcd quarter_turned(const MatrixXcd& u) {
-  MatrixXcd out(u.rows(), u.cols());
-  for (Index a = 0; a < u.rows(); a += 2) {
-    out.row(a) = -u.row(a + 1);
-    out.row(a + 1) = u.row(a);
-  }
-  return out;
-}
-
-VectorXcd reference(const Ring& ring) {
-  VectorXcd x(ring.n_rows());
-  for (std::size_t a = 0; a < ring.place.size(); ++a) {
-    x[static_cast<Index>(2 * a)] = ring.place[a].x;
-    x[static_cast<Index>(2 * a + 1)] = ring.place[a].y;
-  }
-  return x;
-}
 
 /// The eigenproblem of the nodes with mass, contact nodes condensed; M^½ φ_i are its vectors.
 struct Condensed {
@@ -168,16 +140,9 @@ class Lags {
   Index rows_ = 0;
 };
 
-/// (rows, 2C) Unit forces on the contact nodes.
-MatrixXcd unit_forces(const Ring& ring, const Parts& parts) {
-  MatrixXcd forces = MatrixXcd::Zero(ring.n_rows(), ring.n_contact());
-  for (Index c = 0; c < forces.cols(); ++c) forces(parts.contact[at(c)], c) = 1.0;
-  return forces;
-}
-
 /// (rows) What the spin does beyond the modes. @param still of harmonic 0
 VectorXd by_spin(const Ring& ring, const RingHarmonic* h, const Dynamic& still, double square) {
-  const VectorXcd pull = square * (masses(ring).asDiagonal() * reference(ring));
+  const VectorXcd pull = square * (masses(ring).asDiagonal() * reference_of(ring));
   VectorXcd u = solve(still.ring, pull);
   if (h) u -= h->shapes * solve(still.modes, VectorXcd(square * h->reference));
   return u.real();
@@ -226,17 +191,21 @@ RingHarmonic make_harmonic(const Ring& ring, int k, VectorXd squares, MatrixXcd 
   h.k = k;
   h.squares = std::move(squares);
   h.shapes = std::move(shapes);
-  h.contact = h.shapes(Parts(ring).contact, Eigen::all);
+  h.contact = h.shapes(contact_rows(ring), Eigen::all);
   const MatrixXcd weighted = masses(ring).asDiagonal() * h.shapes;
-  const MatrixXcd turning = weighted.adjoint() * quarter_turned(h.shapes);
+  const MatrixXcd turning = weighted.adjoint() * quarter_turned<2>(h.shapes);
   h.coriolis = 0.5 * (turning - turning.adjoint());
-  h.reference = weighted.adjoint() * reference(ring);
-  h.turned = weighted.adjoint() * quarter_turned(reference(ring));
-  VectorXcd ones(ring.n_rows());
-  for (Index a = 0; a < ones.size(); a += 2) ones[a] = 1.0, ones[a + 1] = -i;
-  h.translation = weighted.transpose() * ones;
-  if (k != 0) h.reference.setZero(), h.turned.setZero();
-  if (k != 1 && ring.n_sectors() > 1) h.translation.setZero();
+  for (VectorXcd* v : {&h.reference, &h.turned, &h.translation}) v->setZero(h.squares.size());
+  const VectorXcd x = reference_of(ring);
+  if (k == 0) {
+    h.reference = weighted.adjoint() * x;
+    h.turned = weighted.adjoint() * quarter_turned<2>(x);
+  }
+  if (k == 1 || ring.n_sectors() == 1) {
+    VectorXcd ones(x.size());
+    for (Index a = 0; a < ones.size(); a += 2) ones[a] = 1.0, ones[a + 1] = -i;
+    h.translation = weighted.transpose() * ones;
+  }
   return h;
 }
 
@@ -260,23 +229,30 @@ VectorXd frequencies_of(const Ring& ring, int k) {
   return eigenvalues_of(c.matrix).cwiseMax(0.0).cwiseSqrt();
 }
 
-std::vector<RingHarmonic> ring_modes(const Ring& ring, const ModeChoice& choice) {
+std::vector<Index> take_lowest(std::span<const VectorXd> frequencies, const ModeChoice& choice) {
   struct Mode {
     double frequency;
-    int k;
+    std::size_t k;
   };
   std::vector<Mode> modes;
-  for (int k = 0; 2 * k < ring.n_sectors(); ++k)
-    for (const double frequency : frequencies_of(ring, k)) modes.push_back({frequency, k});
+  for (std::size_t k = 0; k < frequencies.size(); ++k)
+    for (const double frequency : frequencies[k]) modes.push_back({frequency, k});
   std::ranges::stable_sort(modes, {}, &Mode::frequency);
-  std::vector<Index> taken(at((ring.n_sectors() + 1) / 2));
+  std::vector<Index> taken(frequencies.size());
   int count = 0;
   for (const Mode& mode : modes) {
     if (count >= choice.wanted || (mode.frequency > choice.highest && count >= choice.fewest))
       break;
-    ++taken[at(mode.k)];
+    ++taken[mode.k];
     count += mode.k == 0 ? 1 : 2;
   }
+  return taken;
+}
+
+std::vector<RingHarmonic> ring_modes(const Ring& ring, const ModeChoice& choice) {
+  std::vector<VectorXd> frequencies;
+  for (int k = 0; 2 * k < ring.n_sectors(); ++k) frequencies.push_back(frequencies_of(ring, k));
+  const std::vector<Index> taken = take_lowest(frequencies, choice);
   std::vector<RingHarmonic> harmonics;
   const Parts parts(ring);
   for (std::size_t k = 0; k < taken.size(); ++k)
@@ -296,7 +272,7 @@ RingResidual ring_residual(const Ring& ring, std::span<const RingHarmonic> harmo
   const Parts parts(ring);
   RingResidual out;
   Lags lags(ring, parts, out);
-  const MatrixXcd forces = unit_forces(ring, parts);
+  const MatrixXcd forces = unit_forces(ring);
   for (int k = 0; 2 * k <= ring.n_sectors(); ++k) {
     const RingHarmonic* h = find_harmonic(harmonics, k);
     const bool rolls = form == ResidualForm::convected && k > 0 && 2 * k < ring.n_sectors();
@@ -319,7 +295,7 @@ CreepResidual creep_residual(const Ring& ring, std::span<const RingHarmonic> har
   const Parts parts(ring);
   CreepResidual out;
   Lags at_once(ring, parts, out.at_once), later(ring, parts, out.later);
-  const MatrixXcd forces = unit_forces(ring, parts);
+  const MatrixXcd forces = unit_forces(ring);
   for (int k = 0; 2 * k <= ring.n_sectors(); ++k) {
     const RingHarmonic* h = find_harmonic(harmonics, k);
     const bool rolls = spin > 0.0 && k > 0 && 2 * k < ring.n_sectors();

@@ -29,7 +29,7 @@ struct RingHarmonic {
   Eigen::VectorXcd turned;       ///< (r) φᴴ M J X; harmonic 0
   Eigen::VectorXcd translation;  ///< (r) l = φᵀ M (1, -i of each node); harmonic 1, of a
                                  ///< ring of one sector harmonic 0
-  // Of a ring in three dimensions (solid/solid_ring.hpp):
+  // Of a ring in three dimensions:
   Eigen::MatrixXcd planar{};  ///< (r, r) φᴴ M P φ, with P the radial and tangential components
   Eigen::VectorXcd axial{};   ///< (r) φᴴ M (0, 0, 1 of each node); harmonic 0
   Eigen::VectorXcd tilt{};    ///< (r) φᴴ M (0, 0, x + iy of each node); harmonic 1
@@ -56,6 +56,11 @@ struct ModeChoice {
   double highest = 1e300;  ///< and no higher angular frequency, but `fewest` at least  [rad/s]
   int fewest = 0;
 };
+
+/// How many modes of each harmonic are taken.
+/// @param frequencies of the harmonics, those of each one ascending [rad/s]
+[[nodiscard]] std::vector<Eigen::Index> take_lowest(std::span<const Eigen::VectorXd> frequencies,
+                                                    const ModeChoice& choice);
 
 /// The harmonics that have modes, ascending.
 [[nodiscard]] std::vector<RingHarmonic> ring_modes(const Ring& ring, const ModeChoice& choice);
