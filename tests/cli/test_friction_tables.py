@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Friction over slip speed, pressure and place ([ground.friction], [[ground.patch]]) in runs of the program: a block
 that slides to rest against quadrature, wheels on patches, resuming, threads, and what is refused."""
+import re
 import shutil
 import unittest
 
@@ -247,6 +248,88 @@ class Wheels(RunTest):
                    *settings(RUBBER, "ground.friction.coefficient=0.5"))
         self.assertEqual(done.returncode, 2)
         self.assertIn("ground.friction.coefficient", done.stderr)
+
+
+STEEP = "ground.friction={coefficient = 0.4, slip_speed = [[0, 0], [0.5, 1]]}"
+
+
+class Steep(RunTest):
+    """Friction that rises so steeply that slips and coefficients alternate from step to step (theory.md, 4.3e)."""
+    LONG = "time.end=0.06"  # the small wheel rolls for 50 ms on it
+
+    def warned(self, *given, text=SMALL):
+        told = self.run_set(STEEP, self.LONG, *given, text=text)
+        return [line for line in told.splitlines() if "alternates from step to step" in line]
+
+    def force(self):
+        h = history(self.out)
+        return h["force_x"][h["time_s"] > 0.03].mean()
+
+    def of_contact(self):
+        return summary(self.out)["contact"]
+
+    def test_a_step_that_is_too_long_is_told_with_one_that_is_not(self):
+        for text in (SMALL, WHEEL3D):
+            warning, = self.warned(text=text)
+            self.assertGreater(self.of_contact()["friction_alternating"], 0.5)
+            self.assertGreater(self.of_contact()["friction_steepness_max"],
+                               self.of_contact()["friction_steepness_limit"])
+            self.assertIn(warning.removeprefix("rondo: warning: "), summary(self.out)["warnings"])
+            wrong = self.force()
+            bearable = float(re.search(r"time.step of at most (\S+) s", warning)[1])
+            self.assertEqual(self.warned(f"time.step={bearable}", text=text), [])
+            self.assertLess(self.of_contact()["friction_alternating"], 1e-3)
+            right = self.force()
+            self.assertEqual(self.warned(f"time.step={0.5 * bearable}", text=text), [])
+            # The lag is of first order in the step: it leaves 1.4 and 0.6 %. What alternates is 55 and 27 % off.
+            self.assertLess(abs(right / self.force() - 1.0), 0.02)
+            self.assertGreater(abs(wrong / right - 1.0), 0.2)
+            # Twice that step is too long, so the one that is told is not just a short one.
+            self.assertEqual(len(self.warned(f"time.step={2.0 * bearable}", text=text)), 1)
+
+    def test_readable_and_sparse_steps_tell_the_same(self):
+        figures = []
+        for step in ("solver.operator=cyclic", "solver.operator=sparse", "contact.between=all"):
+            self.assertEqual(len(self.warned(step)), 1)
+            figures.append(self.of_contact())
+        for other in figures[1:]:
+            for name in ("friction_alternating", "friction_steepness_max", "friction_steepness_limit"):
+                self.assertLess(abs(other[name] / figures[0][name] - 1.0), 1e-6, name)
+
+    def test_contact_nodes_without_mass_do_so_at_any_step(self):
+        for step in "2e-5", "1e-5":
+            warning, = self.warned("solver.contact_mass=singular", f"time.step={step}")
+            self.assertIn('solver.contact_mass = "lumped"', warning)
+            self.assertGreater(self.of_contact()["friction_alternating"], 0.9)
+            self.assertNotIn("friction_steepness_limit", self.of_contact())
+
+    def test_the_check_knows_what_is_certain(self):
+        def checked(table, *given):
+            done = run("check", self.case(SMALL), *settings(f"ground.friction={{coefficient = 0.4, slip_speed = {table}}}",
+                                                            *given))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return "rises with the slip by up to" in done.stdout, "from next to nothing so steeply" in done.stderr
+        self.assertEqual(checked([[0, 0], [0.1, 1]]), (True, True))
+        self.assertEqual(checked([[0, 0], [5, 1]]), (True, False))
+        self.assertEqual(checked([[0, 0.5], [0.1, 1]]), (True, False))  # what sticks may do so for good
+        self.assertEqual(checked([[0, 1], [0.5, 0.7]]), (False, False))
+        self.assertEqual(checked([[0, 0], [0.1, 1]], "time.step=1e-6"), (True, False))
+
+    def test_it_resumes_to_the_same_figures(self):
+        self.warned()
+        whole = self.of_contact()
+        self.run_set(STEEP, "time.end=0.03", "output.snapshots=6")
+        done = run("run", self.folder / "case.toml", "-o", self.out, "--resume", "--quiet", *settings(STEEP, self.LONG))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.of_contact(), whole)
+
+    def test_tables_that_rise_little_and_constants_are_not_told_of(self):
+        for table in ([[0, 1], [0.1, 1.1], [1, 1], [10, 0.7]], [[0, 0.9], [2, 1]]):
+            told = self.run_set(f"ground.friction={{coefficient = 1.0, slip_speed = {table}}}", self.LONG)
+            self.assertNotIn("alternates", told)
+            self.assertLess(self.of_contact()["friction_alternating"], 0.01)
+        self.run_set("ground.friction=0.4")
+        self.assertNotIn("friction_alternating", self.of_contact())
 
 
 class Swept(ProgramTest):

@@ -21,6 +21,7 @@ RUNS = {  # name: case, settings
     "slow": (SMALL, ["motion.speed=9.9"]),
     "fast": (SMALL, ["motion.speed=10.1"]),
     "rim": (SMALL + RIM, [BRIEF]),
+    "friction": (SMALL, [BRIEF, "ground.friction={coefficient=0.3, slip_speed=[[0, 1], [1, 1.2]]}"]),
     "rubber": (RUBBER, [BRIEF]),
     "hati": (SMALL, [BRIEF, "time.scheme=hati", "solver.hati.ratio=2", "solver.hati.fine.layers=[2,3]"]),
     "implicit": (SMALL + "[[solver.implicit]]\nlayers = [1]\n", [BRIEF]),

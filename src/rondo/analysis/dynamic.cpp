@@ -187,6 +187,7 @@ Progress DynamicAnalysis::begin(Recorder& recorder) {
              contact_cure()};
   watch_.emplace(case_, setup_);
   between_nodes_.emplace(setup_.model);
+  friction_.emplace(setup_);
   if (history_->needs_boundary()) boundary_state_ = dynamics::boundary_state(setup_.model);
   hub_.emplace(setup_);
   reports_.resize(steps_at_once(setup_));
@@ -259,6 +260,8 @@ void DynamicAnalysis::take(const dynamics::StepReport& step, const dynamics::Sta
   balance_ = step.balance;
   material_ = step.material;
   judge(step);
+  if (state && friction_->watches() && step.step == history_->next_row())
+    friction_->look(*state, contact_);
   history_->observe(step, state, recorder.rows());
   if (since_pause_) since_pause_->observe(step, state, recorder.rows());
   recorder.rows_added();
@@ -327,6 +330,8 @@ void DynamicAnalysis::close() {
   judge(beyond);
   warn_of_no_contact();
   warn_of_left_corners();
+  if (std::string alternates = friction_->warning(contact_); !alternates.empty())
+    warn(std::move(alternates));
   if (state_.step == steps_ && !is_looked_at()) look();
 }
 
@@ -346,7 +351,7 @@ void DynamicAnalysis::summarise(Json& j, RunReport& r) const {
   for (const std::string& warning : warnings_) j["warnings"].push_back(warning);
   strain_->summarise({}, j, r);
   if (has_internal_work(setup_)) summarise_rubber(material_, balance_.exchanged, j, r);
-  summarise_dynamic({r, contact_, balance_.exchanged, problems_kept_}, j);
+  summarise_dynamic({r, contact_, balance_.exchanged, problems_kept_, *friction_}, j);
 }
 
 std::unique_ptr<Analysis> make_dynamic(const Case& c, const RunOptions& options) {

@@ -13,6 +13,7 @@
 #include "rondo/analysis/base/strain_watch.hpp"
 #include "rondo/analysis/boundary_watch.hpp"
 #include "rondo/analysis/build/rim.hpp"
+#include "rondo/analysis/friction_watch.hpp"
 #include "rondo/analysis/out_of_range.hpp"
 #include "rondo/analysis/rubber_step.hpp"
 #include "rondo/case/setup.hpp"
@@ -118,6 +119,7 @@ class DynamicAnalysis : public Analysis, public Resumable, public Stepwise {
   Bounds bounds_;
   std::optional<BoundaryWatch> watch_;
   std::optional<BetweenNodes> between_nodes_;
+  std::optional<FrictionWatch> friction_;
   std::optional<HubWatch> hub_;
   bool impacts_told_ = false;
   int problems_kept_ = 0;                       ///< contact problems kept as files

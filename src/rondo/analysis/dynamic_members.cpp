@@ -141,6 +141,20 @@ constexpr JsonMember<E> contact_members[] = {
      [](const E& e) -> Json { return e.contact.extensions_max; }},
     {"between_bodies_max", "integer", "", "Most nodes pressed against bodies at once",
      [](const E& e) -> Json { return e.contact.between_bodies; }},
+    {"friction_steepness_max", "number", "",
+     "Only where friction is a table and contact nodes have mass: largest κ of a contact at the "
+     "rows of `history.csv`, the slope of its coefficient over the slip speed times its normal "
+     "impulse over the mass of its node ([theory.md](theory.md), 4.3e)",
+     [](const E& e) { return e.friction.limit() ? Json(e.contact.friction_steepness) : absent(); }},
+    {"friction_steepness_limit", "number", "",
+     "Likewise: κ below which slips and coefficients do not alternate from step to step",
+     [](const E& e) { return e.friction.limit() ? Json(*e.friction.limit()) : absent(); }},
+    {"friction_alternating", "number", "",
+     "Only where friction is a table: share of the friction that alternates, by the rows of "
+     "`history.csv`; a warning above 0.01",
+     [](const E& e) {
+       return e.friction.watches() ? Json(alternating_share(e.contact)) : absent();
+     }},
     {"problems_kept", "integer", "", "Files in `contact-problems/`",
      [](const E& e) -> Json { return e.problems_kept; }},
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /// @file  What a motion in time has in run.json, besides shared_members().
 #pragma once
+#include "rondo/analysis/friction_watch.hpp"
 #include "rondo/case/setup.hpp"
 #include "rondo/output/contact_statistics.hpp"
 #include "rondo/output/run_files.hpp"
@@ -15,6 +16,7 @@ struct DynamicEnd {
   const ContactStatistics& contact;
   double exchanged = 0.0;  ///< energy [J/m]
   int problems_kept = 0;
+  const FrictionWatch& friction;
 };
 void summarise_dynamic(const DynamicEnd& end, Json& json);
 

@@ -71,6 +71,13 @@ bool falls_with_slip(const FrictionTable& table) noexcept {
   return !std::ranges::is_sorted(table.slip, {}, [](const auto& point) { return point[1]; });
 }
 
+double steepest_rise(const FrictionTable& table, double pressure) noexcept {
+  double rise = 0.0;
+  for (const auto& point : table.slip)
+    rise = std::max(rise, slip_factor(table.slip, point[0]).slope);
+  return table.coefficient * pressure_factor(table, pressure).value * rise;
+}
+
 double largest_friction(const FrictionTable& table) noexcept {
   double slip = table.slip.empty() ? 1.0 : 0.0, patches = 1.0;
   for (const auto& point : table.slip) slip = std::max(slip, point[1]);

@@ -53,6 +53,10 @@ struct FrictionValue {
 /// Whether the factor of some slip speed is below that of a smaller one.
 [[nodiscard]] bool falls_with_slip(const FrictionTable& table) noexcept;
 
+/// The most by which μ rises with the slip speed at a pressure, outside of all patches; 0: it does
+/// not rise                                                                               [s/m]
+[[nodiscard]] double steepest_rise(const FrictionTable& table, double pressure) noexcept;
+
 /// The product of the factors of all patches at a place.
 [[nodiscard]] double patch_factor(const FrictionTable& table, const Vec3& place) noexcept;
 

@@ -78,6 +78,10 @@ void for_contact(Known& c, Visit&& visit) {
   visit("/contact/extensions", c.extensions, {"1", "times that nodes joined a massless contact"});
   visit("/contact/extensions_max", c.extensions_max, {"1", "most in a step"});
   visit("/contact/between_bodies", c.between_bodies, {"1", "most in a step"});
+  visit("/contact/friction_steepness", c.friction_steepness, {"1", "largest at a row"});
+  visit("/contact/friction_alternating", c.friction_alternating,
+        {"N*s/m", "friction that alternates, over the rows"});
+  visit("/contact/friction_bearable", c.friction_bearable, {"N*s/m", "all of it, likewise"});
 }
 
 template <class Known, class Visit>

@@ -47,6 +47,18 @@ TEST(FrictionTable, TheMostThatItGivesIsThatOfAllItsFactors) {
   EXPECT_TRUE(table.is_constant());
 }
 
+TEST(FrictionTable, ItsSteepestRiseIsThatOfItsSteepestPieceAtThePressure) {
+  FrictionTable table = rubber();
+  EXPECT_NEAR(steepest_rise(table, 1.0e5), 0.8 * 0.4, 1e-15);
+  EXPECT_NEAR(steepest_rise(table, 4.0e5), 0.8 * 0.4 * std::pow(4.0, -0.2), 1e-15);
+  table.slip = {{0.0, 1.0}, {0.5, 0.8}, {0.6, 0.9}, {2.0, 0.5}};
+  EXPECT_NEAR(steepest_rise(table, 1.0e5), 0.8 * 1.0, 1e-12);
+  table.slip = {{0.0, 1.0}, {0.5, 0.8}};
+  EXPECT_EQ(steepest_rise(table, 1.0e5), 0.0);
+  table.slip.clear();
+  EXPECT_EQ(steepest_rise(table, 1.0e5), 0.0);
+}
+
 TEST(FrictionTable, ItsDerivativesAreThoseOfDifferences) {
   const FrictionTable table = rubber();
   for (const double slip : {0.2, 0.7, 1.9, 3.0})

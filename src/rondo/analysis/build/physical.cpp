@@ -73,16 +73,21 @@ void tell_gap(double gap, const Wall& wall, const Tell& to) {
   to.warn(stays_above_ground(wall.radius + gap, wall.radius));
 }
 
+/// About how hard a wall is pressed, over E: as a layer on a rim, 1/(1 - ν²) times its deflection
+/// over its thickness.
+double pressure_over_modulus(double deflection, const Wall& wall, const fem::Material& m) {
+  return deflection / wall.thickness / (1.0 - m.poissons_ratio * m.poissons_ratio);
+}
+
 /// Tells how far the wall of a round body on a rim, between what is held and what may touch, is
-/// pressed in, and about how hard: as a layer on a rim, E/(1 - ν²) times that way over its
-/// thickness.
+/// pressed in, and about how hard.
 /// @param key that says how far
 void tell_deflection(const std::string& key, double deflection, const Wall& wall,
                      const fem::Material& m, const Tell& to) {
   if (!(deflection > 0.0)) return tell_gap(-deflection, wall, to);
   to.warn(hardly_pressed(key, deflection, wall.radius));
   const double share = deflection / wall.thickness;
-  const double of_modulus = share / (1.0 - m.poissons_ratio * m.poissons_ratio);
+  const double of_modulus = pressure_over_modulus(deflection, wall, m);
   to.figures.emplace_back("deflection",
                           fmt::format("{:.4g} m, {:.3g} % of the {:.4g} m of the wall", deflection,
                                       100.0 * share, wall.thickness));
@@ -275,6 +280,16 @@ std::optional<Wall> wall_of(const mesh::Mesh& mesh) {
   for (const int node : mesh.clamped) inner.take(radius(node));
   if (outer.low < round * outer.high || inner.high >= outer.low) return std::nullopt;
   return Wall{outer.high, outer.high - inner.high};
+}
+
+std::optional<double> estimated_pressure(const Case& c, const Setup& s) {
+  if (!is_held(c) || !s.model.contact || s.inflation || (s.model.rim && s.model.rim->free_y))
+    return std::nullopt;
+  const std::optional<Wall> wall = wall_of(s.mesh);
+  const double deflection = wall ? deflection_by_motion(c, s, *wall) : 0.0;
+  if (!(deflection > 0.0)) return std::nullopt;
+  const fem::Material& m = touching_material(s.mesh, s.materials);
+  return m.youngs_modulus * pressure_over_modulus(deflection, *wall, m);
 }
 
 void tell_physical_figures(const Case& c, Setup& s) {

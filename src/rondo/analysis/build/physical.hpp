@@ -39,6 +39,11 @@ struct PhysicalFigures {
   std::vector<std::string> warnings;
 };
 
+/// About how hard the wall of a wheel that its tables press down is pressed, as
+/// tell_physical_figures() tells it; none: of tyres with air, of loads, and where nothing is
+/// pressed down [Pa]
+[[nodiscard]] std::optional<double> estimated_pressure(const Case& c, const Setup& s);
+
 /// Fills figures and warnings, but those of units. @pre the fields of the start are set
 void tell_physical_figures(const Case& c, Setup& s);
 /// With those of units.

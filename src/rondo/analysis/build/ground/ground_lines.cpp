@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "rondo/analysis/build/ground/friction_rise.hpp"
 #include "rondo/analysis/build/ground/road_reach.hpp"
 #include "rondo/case/case_keys.hpp"
 
@@ -120,7 +121,9 @@ void tell_ground(const Case& c, Steps steps, Setup& s) {
   tell_obstacles(c, reach, s);
   tell_friction_table(c.ground->friction, s);
   tell_patches(c, reach, s);
-  if (steps == Steps::of_full_run) warn_of_unknown_pressures(c, s);
+  if (steps != Steps::of_full_run) return;
+  tell_friction_rise(c, s);
+  warn_of_unknown_pressures(c, s);
 }
 
 }  // namespace rondo::study
