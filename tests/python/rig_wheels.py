@@ -4,6 +4,8 @@ import os
 import subprocess
 import sys
 
+from program import PROGRAM
+
 WHEEL = """schema = 1
 title = "Small wheel"
 [disk]
@@ -43,6 +45,7 @@ loads = [2000.0, 4000.0]
 length = 2.0
 modes = 20
 [cleat]
+speeds = [12.0, 20.0]
 modes = 20
 height = 0.006
 length = 0.06
@@ -54,6 +57,20 @@ def rig(*arguments, code=0):
                           env=os.environ)
     assert done.returncode == code, done.stderr
     return done
+
+
+def failing(folder, pattern):
+    """A program of which those commands fail that have the pattern, a regular expression, among their arguments."""
+    program = folder / "failing-rondo"
+    program.write_text(f"""#!/bin/bash
+if [[ "$*" =~ {pattern} ]]; then
+  echo "rondo: error: made to fail" >&2
+  exit 3
+fi
+exec {PROGRAM} "$@"
+""")
+    program.chmod(0o755)
+    return str(program)
 
 
 def files(folder, case=WHEEL, settings=RIG):

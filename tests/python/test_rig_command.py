@@ -11,9 +11,11 @@ import zipfile
 
 import numpy as np
 import pytest
-from rig_wheels import RIG, WHEEL, files, rig
+from rig_wheels import RIG, WHEEL, failing, files, rig
 
 import rondo
+from rondo import files as exchanged
+from rondo.rig.findings import find
 from rondo.rig.settings import read_settings, settings_text
 from rondo.rig.time_tests import cleat_ramp, road_profile
 
@@ -25,7 +27,7 @@ def done(tmp_path_factory):
     folder = tmp_path_factory.mktemp("rig")
     case, settings = files(folder)
     said = rig(case, "--rig", settings, "--quick", "-o", folder / "done").stderr
-    assert "14 of 14" in said and "left" in said
+    assert "15 of 15" in said and "left" in said
     return folder / "done"
 
 
@@ -77,7 +79,6 @@ def test_slopes_are_those_of_the_points(done):
 
 
 def test_tydex_has_the_points(done):
-    from rondo import files as exchanged
     tydex, table = exchanged.read_tydex(done / "lateral.tdx"), rondo.open_rig(done).tests["lateral"].table
     assert tydex["FYW"] == pytest.approx(table["Fy"], rel=1e-5, abs=1e-3)
     assert tydex["SLIPANGL"] == pytest.approx(table["slip_angle"], abs=1e-6)
@@ -167,6 +168,66 @@ def test_a_tyre_with_air_and_cords(tmp_path):
     assert low < high
 
 
+def statuses(found, test):
+    """(points that are done, reasons of the others)"""
+    table = found.tests[test].table
+    return int((table["status"] == "done").sum()), [str(one) for one in table["reason"][table["status"] != "done"]]
+
+
+def test_a_run_that_fails_is_a_row_of_its_test(done, tmp_path, monkeypatch):
+    """Of every test one run fails, or the state that it begins with; what ran stays."""
+    shutil.copytree(done.parent, tmp_path / "copy")
+    names = ("state-20mps", "footprint-2000N-camber0deg", "lateral-camber3deg", "combined-4000N", "rolling-resistance-24mps",
+             "relaxation-slip-angle-4000N", "modes-standing", "road-12mps")
+    for name in names:
+        shutil.rmtree(tmp_path / "copy" / "done" / "runs" / name)
+    monkeypatch.setenv("RONDO", failing(tmp_path, f"runs/({'|'.join(names)}|fmu)/"))
+    said = rig(tmp_path / "copy" / "wheel.toml", "--rig", tmp_path / "copy" / "rig.toml", "--quick", "--fmu",
+               "-o", tmp_path / "copy" / "done", code=3).stderr
+    found, why = rondo.open_rig(tmp_path / "copy" / "done"), "made to fail"
+    assert statuses(found, "cleat") == (1, ["this point begins with the height and the effective radius of free rolling at 20 m/s, "
+                                            "which failed: made to fail"])
+    assert [statuses(found, test) for test in ("vertical", "footprint", "longitudinal", "lateral", "combined", "rolling-resistance",
+                                               "relaxation", "road")] == \
+        [(4, []), (1, [why]), (18, []), (21, [why] * 9), (0, [why] * 4), (3, [why]), (1, [why]), (0, [why])]
+    assert statuses(found, "modes")[1] == [why] and "lateral: 9 of 30 points failed" in said and "tyre.fmu: failed: made to fail" in said
+    assert [name for name, test in found.tests.items() if test.info["status"] == "failed"] == ["combined", "road"]
+    page = (found.directory / "report.html").read_text()
+    assert "All points of these tests failed: combined, road" in page and "point 2 (4 kN, 72 km/h): this point begins" in page
+    assert "9 of 30 points failed and are left out: lateral.csv says why" in (found.directory / "lateral.tdx").read_text()
+    assert "not in this file: lateral 9, combined 4, rolling-resistance 1" in (found.directory / "tyre.tir").read_text()
+
+
+def test_without_vertical_others_say_what_they_lack(tmp_path, monkeypatch):
+    """Slip angles need none of its states; slip ratios do."""
+    case, settings = files(tmp_path)
+    monkeypatch.setenv("RONDO", failing(tmp_path, "runs/vertical/"))
+    rig(case, "--rig", settings, "--quick", "--tests", "lateral,combined", "-o", tmp_path / "rig", code=3)
+    found = rondo.open_rig(tmp_path / "rig")
+    why = ("this point begins with the height and the effective radius of free rolling under 4000 N, which the test vertical does "
+           "not have: made to fail")
+    assert statuses(found, "combined") == (0, [why] * 4) and statuses(found, "lateral") == (30, [])
+    slipping = found.tests["lateral"].table["slip_angle"] != 0
+    slipping |= found.tests["lateral"].table["camber"] != 0
+    assert np.isnan(found.tests["lateral"].table["slip_ratio"][slipping]).all()
+    assert exchanged.read_tir(tmp_path / "rig" / "tyre.tir").number("UNLOADED_RADIUS") == pytest.approx(0.3)
+    assert np.isnan(exchanged.read_tydex(tmp_path / "rig" / "lateral.tdx")["LONGSLIP"][slipping]).all()
+
+
+def test_slopes_are_of_the_smallest_slips():
+    """A larger slip does not take the place of one that failed."""
+    rows = [{"load": 1.0, "pressure": None, "slip_ratio": slip, "Fx": 1e3 * slip, "status": "done"} for slip in (-0.03, -0.01, 0.01, 0.03)]
+    assert find(None, "longitudinal", rows)["slip_stiffness"][0]["value"] == pytest.approx(1e3)
+    assert find(None, "longitudinal", [*rows[:2], rows[2] | {"status": "failed"}, rows[3]]) == {}
+
+
+def test_a_step_that_slides_has_no_relaxation_length(tmp_path):
+    case, settings = files(tmp_path, settings=f"{RIG}[relaxation]\nslip_ratio_step = 0.1\n")
+    rig(case, "--rig", settings, "--quick", "--tests", "relaxation", "-o", tmp_path / "rig", code=3)
+    count, reasons = statuses(rondo.open_rig(tmp_path / "rig"), "relaxation")
+    assert count == 1 and "the step of the slip ratio, 0.1, changes force_x by 101 % of what friction carries" in reasons[0]
+
+
 def test_a_point_that_fails_is_a_row(tmp_path):
     case, settings = files(tmp_path, settings=RIG + "[vertical]\nloads = [4000.0, 1.8e5]\n")
     said = rig(case, "--rig", settings, "--quick", "--tests", "vertical", "-o", tmp_path / "rig", code=3).stderr
@@ -220,7 +281,13 @@ def test_dry_run_and_defaults(tmp_path):
     ("schema = 1\n[lateral]\nslip_angles_deg = [50.0]\n", "slip_angles_deg = [50.0] (allowed: a list of numbers in degrees"),
     ("schema = 1\n[latral]\n", "[latral]: no such table (allowed: lateral?"),
     ("schema = 1\npressures = [2e5]\n", "has no [inflation]"),
-    ("schema = 1\nloads = []\n", "loads = []"), ("schema = ", "cannot be read")])
+    ("schema = 1\nloads = []\n", "loads = []"), ("schema = ", "cannot be read"),
+    ("schema = 1\nloads = [4000.0, nan]\n", "loads = [4000.0, nan] (allowed"), ("schema = 1\nload = true\n", "load = true (allowed"),
+    (f"schema = 1\nload = 1{'0' * 400}\n", "(allowed: a number in N, >= 20 and <= 1e+08)"),
+    ("schema = 1\nlateral = 3\n", "lateral: is no table (allowed: [lateral], once)"),
+    ("schema = 1\n[cleat]\nspeeds = [1e-9]\n", "cleat.speeds = [1e-09] (allowed: a list of numbers in m/s, >= 0.5 and <= 500"),
+    ("schema = 1\n[cleat]\nheight = 0.1\nlength = 1e-3\n", "longer than the radius of the wheel"),
+    ("schema = 1\nloads = [4000.0, 1e7]\n", "loads: 1e+07 N: the wheel comes down by 7.03 mm under its nominal load")])
 def test_mistakes_in_a_rig_file(tmp_path, text, words):
     case, settings = files(tmp_path, settings=text)
     assert words in rig(case, "--rig", settings, "-o", tmp_path / "rig", code=2).stderr
@@ -229,13 +296,34 @@ def test_mistakes_in_a_rig_file(tmp_path, text, words):
 
 @pytest.mark.parametrize("old, new, words", [
     ("load = 4000.0\n", "", "give load = 4000.0 in a rig file"),
-    ("angular_velocity = 40.0\n", "", "give speed = 13.7"), ("angular_velocity = 40.0", "angular_velocity = 1e-3", "m/s and more"),
-    ("friction = 0.8\n", "", "give friction = 0.9"), ("circumferential = 60\n", "", "disk.mesh.circumferential"),
+    ("angular_velocity = 40.0\n", "", "give speed = 13.7"), ("angular_velocity = 40.0", "angular_velocity = 1e-3", ">= 0.5 and <= 500"),
+    ("friction = 0.8\n", "", "give friction = 0.9"), ("load = 4000.0", "load = true", "wheel.toml:24:8: analysis.load = true: must be a float"),
+    ("load = 4000.0", "load = 2.0", "analysis.load: 2 N (allowed: a number in N, >= 20"), ("[damping]", "[dampnig]", "did you mean damping?"),
+    ("angular_velocity = 40.0", 'angular_velocity = [[0.0, "a"]]', 'angular_velocity = "a": must be a float'),
+    ('"Small wheel"', "5", "title = 5: must be a string"), ("friction = 0.8", "friction = {}", "ground.friction.coefficient: is missing"), ("circumferential = 60\n", "", "disk.mesh.circumferential"),
     ("[material]", "[disk.tread]\n[material]", "disk.tread"),
-    ("load = 4000.0\n", "load = 1.8e5\n", "the tyre does not roll under its nominal load")])
+    ("load = 4000.0\n", "load = 1.8e5\n", "the wheel does not roll under its nominal load, 180000 N at 40 rad/s: ")])
 def test_mistakes_in_a_case(tmp_path, old, new, words):
     case, _ = files(tmp_path, WHEEL.replace(old, new))
     assert words in rig(case, "-o", tmp_path / "rig", code=2).stderr
+
+
+@pytest.mark.parametrize("old, new, words", [
+    ("pressure = 2.2e5 ", 'pressure = "2.2e5"', "inflation.pressure = \"2.2e5\": must be a float"),
+    ("pressure = 2.2e5 ", "pressure = 0.0", "inflation.pressure: 0 Pa (allowed: a number in Pa, >= 10000"),
+    ("angle = 0.3839724354387525", 'angle = "22"', "cords[2].angle = \"22\": must be a float"),
+    ("/tyre-205-55-r16.msh\"", "\" # ", "is a directory")])
+def test_mistakes_in_the_case_of_a_tyre(tmp_path, old, new, words):
+    folder = pathlib.Path(__file__).parents[2] / "cases"
+    text = (folder / "tyre-cornering.toml").read_text().replace('"meshes/', f'"{folder}/meshes/')
+    assert old in text
+    (tmp_path / "tyre.toml").write_text(text.replace(old, new))
+    assert words in rig(tmp_path / "tyre.toml", "-o", tmp_path / "rig", code=2).stderr
+
+
+def test_a_case_that_is_no_text(tmp_path):
+    (tmp_path / "tyre.toml").write_bytes(b"\xff\xfe")
+    assert "tyre.toml: cannot be read: " in rig(tmp_path / "tyre.toml", "--dry-run", code=2).stderr
 
 
 def test_unknown_tests_are_refused(tmp_path):

@@ -25,6 +25,11 @@ class RigTest:
     info: dict[str, Any]           # status, reason, points, failed, seconds, figures
     table: dict[str, np.ndarray]   # (points,) each, SI and ISO-W; {}: none yet
 
+    @property
+    def failed(self) -> int:
+        """Points that failed; each has its reason in the table."""
+        return int((np.asarray(self.table.get("status", ()), dtype=str) == "failed").sum())
+
 
 @dataclass(frozen=True)
 class Rig:

@@ -6,11 +6,11 @@ import copy
 import hashlib
 import pathlib
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..data.errors import FileError
+from ..data.errors import Error, FileError
 from .keys import TOP
 from .settings import Settings, is_per_metre
 from .toml_text import toml_text
@@ -37,7 +37,8 @@ class Point:
 
 @dataclass(frozen=True)
 class Block:
-    """`keys` and `values`: what the members of a sweep differ in, a row for each point."""
+    """`keys` and `values`: what the members of a sweep differ in, a row for each point. `cannot`: points that cannot begin,
+    and why: they are no part of the command, and a block that has no others is not run."""
 
     test: str
     name: str  # of the folder under DIR/runs
@@ -47,6 +48,12 @@ class Block:
     keys: tuple[str, ...] = ()
     values: tuple[tuple[float, ...], ...] = ()
     options: tuple[str, ...] = ()
+    cannot: tuple[tuple[Point, str], ...] = ()
+
+    @property
+    def count(self) -> int:
+        """Of its points, with those that cannot begin."""
+        return len(self.points) + len(self.cannot)
 
     def texts(self) -> dict[str, str]:
         """Its files: name, content."""
@@ -106,6 +113,7 @@ class Bench:
     mesh: str = ""
     radius: float = 0.0
     stable_step: float = 0.0  # s, of runs of a plane wheel in time; 0: not known, or not needed
+    no_steps: str = ""        # why a plane wheel cannot run in time; "": it can
 
     @property
     def top(self) -> dict[str, Any]:
@@ -130,6 +138,14 @@ class Bench:
     def spin(self, speed: float | None = None) -> float:
         """rad/s, at which the radius without load has this speed [m/s]; None: the nominal one."""
         return (self.top["speed"] if speed is None else speed) / self.radius
+
+
+def block_or_why_not(test: str, point: Point, made: Callable[[], Block]) -> Block:
+    """A block of one point; where it cannot begin, the block says why."""
+    try:
+        return made()
+    except Error as reason:
+        return Block(test, "", RUN, {}, (), cannot=((point, str(reason)),))
 
 
 def tyre_case(bench: Bench, title: str, pressure: float | None) -> dict[str, Any]:

@@ -18,6 +18,8 @@ from ..studies.program import find_program
 from ..studies.progress import Progress
 from .against_reading import read_measured
 from .blocks import MADE_OF, RESULTS, SWEEP, Bench, Block
+from .checks.case import demand_right
+from .checks.values import demand_bearable
 from .defaults import nominal, with_defaults
 from .findings import doubt_of, find
 from .keys import TOP
@@ -27,12 +29,12 @@ from .planning import cost_of, plan_text
 from .record import FORMAT, replace_text, write_channels, write_json, write_table
 from .rows import DONE, FAILED, free_radius, rows_of_block
 from .settings import Settings, is_per_metre, read_settings, settings_text
-from .states import Row, States, states_of
+from .states import Found, Row, States, states_of
 from .steady_tests import at_speeds, reference
 from .tests_table import TESTS
 from .time_tests import fmu, lowest_mode, stable_step
-from .tyre import Tyre, read_tyre
-from .units import units_of
+from .tyre import Tyre, read_mesh, read_tyre
+from .units import of_width, units_of
 
 GUESS = 0.3      # m: the radius by which a speed of a rig file is a spin, until the reference tells the radius
 FIRST = "vertical"  # the test that others begin with
@@ -57,7 +59,7 @@ def plan(request: Request) -> str:
     with tempfile.TemporaryDirectory() as folder:
         rig = Rig(replace(request, directory=pathlib.Path(folder)))
         rig.begin(Stop())
-        return plan_text(rig.bench, rig.wanted(), {**rig.left_out, **rig.cannot}, rig.point_s, rig.disk, request.jobs or processors())
+        return plan_text(rig.bench, rig.wanted(), rig.left_out, rig.point_s, rig.disk, request.jobs or processors())
 
 
 def defaults_text(request: Request) -> str:
@@ -102,6 +104,7 @@ class Rig:
             raise InputError(f"--tests: {', '.join(unknown)}: no such test (allowed: {', '.join(TESTS)})")
         self.request, self.program = request, find_program()
         self.tyre: Tyre = read_tyre(request.case)
+        demand_right(self.program, request.case)
         self.given: Settings = read_settings(request.rig, self.tyre.wheels)
         self.left_out: Mapping[str, str] = left_out_of(self.tyre.case) if self.tyre.is_plane else {}  # tests that the wheel cannot do, and why
         for name in request.tests:
@@ -114,27 +117,16 @@ class Rig:
         self.rows: dict[str, list[Row]] = {}
         self.tests: dict[str, dict[str, Any]] = {}
         self.failures: dict[str, str] = {}  # of commands, by block
-        self.cannot: dict[str, str] = {}  # tests that could not begin, and why
-        self.states: States | None = None
+        self.states = States()
         self.point_s = 0.0  # of the solver, for a point of the reference
         self.disk = 0       # bytes of its results
-        self._mesh, mesh_name = self._read_mesh()
+        self._mesh, mesh_name = read_mesh(self.tyre)
         top = nominal(self.tyre, self.given, request.quick)
         self.bench = Bench(self.tyre, {TOP: top}, mesh_name)
 
     @property
     def runs(self) -> pathlib.Path:
         return self.request.directory / "runs"
-
-    def _read_mesh(self) -> tuple[bytes, str]:
-        name = self.tyre.case.get("section", {}).get("file")
-        if name is None:
-            return b"", ""
-        path = self.tyre.path.parent / name
-        try:
-            return path.read_bytes(), path.name
-        except OSError as reason:
-            raise InputError(f"{self.tyre.path}: section.file: {path}: cannot be read: {reason.strerror}") from None
 
     # What is there already
 
@@ -194,18 +186,22 @@ class Rig:
         if stop.asked:
             return
         if block.name in self.failures:
-            raise Error(f"the tyre does not roll under its nominal load: {self.failures[block.name]}")
+            said = self.failures[block.name].replace(f"{self.runs}/", "runs/")
+            unit = of_width("N", self.bench.per_metre)
+            raise Error(f"{self.tyre.path}: the wheel does not roll under its nominal load, {self.bench.top['load']:g} {unit} at {spin or 0.0:g} "
+                        f"rad/s: {said}")
         info = read_json(self.runs / block.name / RESULTS / "run.json")
         radius = free_radius(info["steady"], spin or 0.0)
         self.point_s = float(info["solve_wall_s"])
         self.disk = int(sum(path.stat().st_size for path in (self.runs / block.name / RESULTS).iterdir()))
         settings = with_defaults(self.tyre, self.given, self.request.quick, radius)
         self.bench = Bench(self.tyre, settings, self.bench.mesh, radius)
+        demand_bearable(self.bench, self.given, self.request.rig, radius - float(info["steady"]["height"]))
         if self.tyre.is_plane and "relaxation" in self.wanted() and "relaxation" not in self.left_out:
             self._prepare_time_steps(stop)
 
     def _prepare_time_steps(self, stop: Stop) -> None:
-        """Damping and time step of the relaxation of a plane wheel. Where they cannot be found, only this test fails."""
+        """Damping and time step of the relaxation of a plane wheel. Where they cannot be found, its points cannot begin."""
         mode = self._begun(lowest_mode(self.bench), "its lowest mode", stop)
         if mode is None:
             return
@@ -218,35 +214,45 @@ class Rig:
         """Its results; None: interrupted, or failed, which is why there is no relaxation."""
         self._run([block], stop, quiet=True)
         if block.name in self.failures:
-            self.cannot["relaxation"] = "; ".join(f"of this wheel {what} fails: {self.failures[block.name]}".splitlines())
+            self.bench = replace(self.bench, no_steps="; ".join(f"of this wheel {what} fails: {self.failures[block.name]}".splitlines()))
         return None if stop.asked or block.name in self.failures else self.runs / block.name / RESULTS
 
     def do_tests(self, stop: Stop) -> None:
         wanted = self.wanted()
-        for tests in ([FIRST] if FIRST in wanted else [], [name for name in wanted if name != FIRST]):
-            blocks = []
-            for name in tests:
-                self.blocks[name], why = self._build(name)
-                self.tests[name] = {"status": "left out", "reason": why} if why else {"status": "running"}
-                if self.tyre.is_plane and name in NOTES and not why:
-                    self.tests[name]["note"] = NOTES[name]
-                blocks += self.blocks[name]
-            others = at_speeds(self.bench, wanted) if FIRST in tests else []
-            if blocks and not stop.asked:
-                self._run([*blocks, *others], stop, self.request.quiet)
-            for name in tests:
-                self._settle(name)
-            if FIRST in tests:
-                self.states = states_of(self.rows[FIRST], self._by_speed(others))
+        if FIRST in wanted:
+            others = at_speeds(self.bench, wanted)
+            self._do([FIRST], others, stop)
+            self.states = states_of(self.rows[FIRST], self._by_speed(others), of_width("N", self.bench.per_metre))
+        if stop.asked:  # what other tests begin with is not known
+            self.tests |= {name: self.known.get(name, {"status": "unfinished"}) for name in wanted if name not in self.tests}
+            self.write()
+        else:
+            self._do([name for name in wanted if name != FIRST], [], stop)
 
-    def _by_speed(self, blocks: Sequence[Block]) -> dict[float, tuple[float, float]]:
-        """Height and effective radius of those that are done."""
-        found = {}
+    def _do(self, tests: Sequence[str], others: Sequence[Block], stop: Stop) -> None:
+        blocks = []
+        for name in tests:
+            why = self.left_out.get(name)
+            self.blocks[name] = [] if why else TESTS[name].blocks(self.bench, self.states)
+            self.tests[name] = {"status": "left out", "reason": why} if why else {"status": "running"}
+            if self.tyre.is_plane and name in NOTES and not why:
+                self.tests[name]["note"] = NOTES[name]
+            blocks += [block for block in self.blocks[name] if block.points]
+        if blocks:
+            self._run([*blocks, *others], stop, self.request.quiet)
+        for name in tests:
+            self._settle(name)
+
+    def _by_speed(self, blocks: Sequence[Block]) -> dict[float, Found]:
+        """Height and effective radius, or why there are none."""
+        found: dict[float, Found] = {}
         for block in blocks:
+            speed = block.points[0].speed
             if self._is_there(block):
                 state = read_json(self.runs / block.name / RESULTS / "run.json")["steady"]
-                speed = block.points[0].speed
                 found[speed] = (float(state["height"]), float(state["speed"]) / self.bench.spin(speed))
+            elif block.name in self.failures:
+                found[speed] = self.failures[block.name]
         return found
 
     def wanted(self) -> list[str]:
@@ -258,15 +264,6 @@ class Rig:
     @staticmethod
     def _begins_with_states(name: str) -> bool:
         return name not in (FIRST, "modes")
-
-    def _build(self, name: str) -> tuple[list[Block], str]:
-        """Its blocks, or why there are none."""
-        if why := self.left_out.get(name) or self.cannot.get(name):
-            return [], why
-        try:
-            return TESTS[name].blocks(self.bench, self.states or States({})), ""
-        except Error as reason:
-            return [], str(reason)
 
     def _run(self, blocks: Sequence[Block], stop: Stop, quiet: bool) -> None:
         jobs, of = [], {}
@@ -312,7 +309,7 @@ class Rig:
         """DIR/tyre.fmu, or why there is none."""
         file = self.request.directory / "tyre.fmu"
         try:
-            block = fmu(self.bench, self.states or States({}))
+            block = fmu(self.bench, self.states)
             self._run([block], stop, self.request.quiet)
             if stop.asked:
                 return
@@ -339,7 +336,7 @@ class Rig:
         if self.blocks[name]:
             failed = sum(row["status"] == FAILED for row in rows)
             told |= {"status": "finished" if len(begun) == len(self.blocks[name]) else "unfinished",
-                     "points": sum(len(block.points) for block in self.blocks[name]), "failed": failed}
+                     "points": sum(block.count for block in self.blocks[name]), "failed": failed}
             if rows and failed == len(rows):
                 told["status"] = "failed"
             told["csv"] = write_table(self.request.directory, name, rows, self.bench)
@@ -349,7 +346,7 @@ class Rig:
         self.write()
 
     def _has_ended(self, block: Block) -> bool:
-        return self._is_there(block) or block.name in self.failures
+        return not block.points or self._is_there(block) or block.name in self.failures
 
     def write(self) -> None:
         settings, found = self.bench.settings, self.known | self.tests
@@ -382,8 +379,6 @@ class Rig:
                 _say(self.request.quiet, f"info: {path}")
         failed = [f"{name}: {told.get('failed', 0)} of {told['points']} points failed" for name, told in self.tests.items()
                   if told.get("failed")]
-        failed += [f"{name}: left out: {told['reason']}" for name, told in self.tests.items()
-                   if told["status"] == "left out" and name not in self.left_out]
         if self.request.fmu and self.fmu["status"] == FAILED:
             failed.append(f"tyre.fmu: failed: {self.fmu['reason']}")
         for line in failed + [f"{name}: {told['doubt']}" for name, told in self.tests.items() if told.get("doubt")]:

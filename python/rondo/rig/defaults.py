@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from ..data.errors import InputError
-from .keys import TOP, tables_of
-from .settings import Settings, Values
+from .keys import LEAST_SPEED, TABLES, TOP, Key, tables_of
+from .settings import Settings, Values, is_per_metre
 from .tyre import Tyre
+from .units import of_width
 
-SLOWEST = 0.5  # m/s
 FEWEST = 60  # sectors that a footprint needs
 
 
@@ -22,16 +22,17 @@ def nominal(tyre: Tyre, given: Settings, quick: bool) -> Values:
         raise InputError(f"{tyre.path}: has a tread of {tyre.sectors} pitches, and the rig file has sectors = {values['sectors']} "
                          "(allowed: leave sectors out; disk.tread.pitches of the case)")
     for key, unit, there in (("load", "1.0e5 in N/m, or width and load in N," if tyre.is_plane else "4000.0",
-                              "no analysis.load and no rim.force_y"),
+                              "no analysis.load above 0, and no rim.force_y below 0 at its end"),
                              ("speed", "13.7", "no motion.angular_velocity above 0")):
         if key not in values or values[key] is None:
             if key == "speed" and tyre.spin is not None:
                 continue
             raise InputError(f"{tyre.path}: has {there}, and the rig needs it: give {key} = {unit} in a rig file (--rig)")
+    _demand_bounds(tyre, top, values)
     if values["friction"] == 0.0:
         raise InputError(f"{tyre.path}: has no ground.friction, and without it there is no force over slip: give friction = 0.9 "
                          "in a rig file (--rig)")
-    if tyre.pressure is None and ("pressure" in top or any("pressures" in one for one in given.values())):
+    if not tyre.has_air and ("pressure" in top or any("pressures" in one for one in given.values())):
         raise InputError(f"{tyre.path}: has no [inflation], and the rig file varies its pressure: leave pressures out")
     return values
 
@@ -42,10 +43,10 @@ def with_defaults(tyre: Tyre, given: Settings, quick: bool, radius: float) -> Se
     load, pressure = float(top["load"]), top["pressure"]
     if "speed" not in top:
         top["speed"] = _short((tyre.spin or 0.0) * radius)
-    if top["speed"] < SLOWEST:
-        found = "speed of the rig file:" if "speed" in given[TOP] else f"{tyre.path}: motion.angular_velocity: {tyre.spin or 0.0:g} rad/s are"
-        raise InputError(f"{found} {top['speed']:g} m/s, and cleat and road would take hours (allowed: {SLOWEST} m/s and more; or speed = 13.7 "
-                         "in a rig file, --rig)")
+    if not _key("speed").contains(top["speed"]):
+        why = ", at which cleat and road would take hours" if top["speed"] < LEAST_SPEED else ""
+        raise InputError(f"{tyre.path}: motion.angular_velocity: {tyre.spin or 0.0:g} rad/s are {top['speed']:g} m/s{why} (allowed: "
+                         f"{_key('speed').allowed()}; or speed = 13.7 in a rig file, --rig)")
     top.setdefault("loads", _times(load, (0.5, 1.0, 1.5) if quick else (0.5, 0.75, 1.0, 1.5)))
     top.setdefault("pressures", _times(pressure, (0.8, 1.0) if quick else (0.8, 1.0, 1.2)) if pressure else [])
     top.setdefault("cambers_deg", [0.0, 3.0] if quick else [-3.0, 0.0, 3.0])
@@ -64,6 +65,21 @@ def with_defaults(tyre: Tyre, given: Settings, quick: bool, radius: float) -> Se
         settings["vertical"][key] = _united([one[key] for one in settings.values() if key in one] + [[load]] * (key == "loads"))
     return {table: {key.name: settings[table][key.name] for key in keys if settings[table].get(key.name) not in (None, [])}
             for table, keys in tables.items()}
+
+
+def _key(name: str) -> Key:
+    """One at the top of a rig file."""
+    return next(key for key in TABLES[TOP] if key.name == name)
+
+
+def _demand_bounds(tyre: Tyre, top: Values, values: Values) -> None:
+    """The case is held to the bounds of a rig file."""
+    per_metre = is_per_metre(tyre.wheels, top)
+    for name, where in (("load", tyre.says_load), ("pressure", "inflation.pressure")):
+        value, key = values[name], _key(name)
+        if name not in top and value is not None and not key.contains(value):
+            raise InputError(f"{tyre.path}: {where}: {value:g} {of_width(key.unit, per_metre)} (allowed: {key.allowed(per_metre)}; or another "
+                             f"{name} in a rig file, --rig)")
 
 
 def _load_of(tyre: Tyre, top: Values) -> float | None:
@@ -93,11 +109,15 @@ def _times(value: float, factors: tuple[float, ...]) -> list[float]:
     return [value if factor == 1.0 else _short(value * factor) for factor in factors]
 
 
+def _speeds(speed: float, factors: tuple[float, ...]) -> list[float]:
+    return [one for one in _times(speed, factors) if _key("speed").contains(one)]
+
+
 def _of_tests(top: Values, quick: bool, radius: float, is_plane: bool) -> Settings:
     loads, pressures, load, speed = top["loads"], top["pressures"], top["load"], top["speed"]
     of_loads = {"loads": loads, "pressures": pressures}
     vertical = (0.25, 0.5, 1.0, 1.5) if quick else (0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75, 2.0)
-    speeds = _times(speed, (1.0, 2.0) if quick else (0.5, 1.0, 1.5, 2.0))
+    speeds = _speeds(speed, (1.0, 2.0) if quick else (0.5, 1.0, 1.5, 2.0))
     return {
         "vertical": {"loads": _times(load, vertical), "pressures": pressures},
         "footprint": {"loads": [load] if quick else loads, "cambers_deg": [0.0] if quick else [0.0, 3.0]},
@@ -118,7 +138,7 @@ def _of_tests(top: Values, quick: bool, radius: float, is_plane: bool) -> Settin
         "relaxation": {"loads": [load] if quick else loads, "slip_angle_step_deg": 0.1,
                        "slip_ratio_step": 0.005 if is_plane else 0.001,  # steps in time need a larger one
                        "distance": _short(6.0 * radius), "mass_damping": 100.0},
-        "cleat": {"speeds": [speed] if quick else _times(speed, (0.5, 1.0, 2.0)), "height": 0.01, "length": 0.02,
+        "cleat": {"speeds": [speed] if quick else _speeds(speed, (0.5, 1.0, 2.0)), "height": 0.01, "length": 0.02,
                   "modes": 60 if quick else 200, "mass_damping": 25.0},
         "modes": {"count": 6 if quick else 20},
         "road": {"length": 4.0 if quick else 20.0, "roughness": 1.6e-5, "seed": 1, "speeds": [speed],

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from .blocks import Bench
-from .rows import done
+from .rows import done, those
 from .states import Row
 
 Found = dict[str, list[dict[str, Any]]]
@@ -42,7 +42,7 @@ def _lateral(bench: Bench, rows: Sequence[Row]) -> Found:
     for row in straight:
         at = {"load": row["load"], "pressure": row["pressure"]}
         merits["cornering_stiffness"].append({**at, "value": row["cornering_stiffness"]})
-        if (trail := _trail(done(rows, camber=0.0, load=row["load"], pressure=row["pressure"]))) is not None:
+        if (trail := _trail(those(rows, camber=0.0, load=row["load"], pressure=row["pressure"]))) is not None:
             merits["pneumatic_trail"].append({**at, "value": trail})
         if (other := mirrored.get(row["load"])) is not None and row["pressure"] == bench.pressure:
             merits["ply_steer_force"].append({**at, "value": 0.5 * (row["Fy"] - other["Fy"])})
@@ -52,22 +52,26 @@ def _lateral(bench: Bench, rows: Sequence[Row]) -> Found:
 
 def _trail(rows: Sequence[Row]) -> float | None:
     """m: minus the moment's over the force's difference between the smallest slip angles of both signs."""
-    rows = [row for row in rows if not row.get("mirrored")]
-    right = min((row for row in rows if row["slip_angle"] > 0.0), key=lambda row: row["slip_angle"], default=None)
-    left = max((row for row in rows if row["slip_angle"] < 0.0), key=lambda row: row["slip_angle"], default=None)
-    if right is None or left is None:
+    pair = _smallest([row for row in rows if not row.get("mirrored")], "slip_angle")
+    return None if pair is None else float(-(pair[1]["Mz"] - pair[0]["Mz"]) / (pair[1]["Fy"] - pair[0]["Fy"]))
+
+
+def _smallest(rows: Sequence[Row], slip: str) -> tuple[Row, Row] | None:
+    """Those with the smallest slips below and above 0. None: there are none, or one of them failed: a slope over the next larger
+    slip would be that of a contact that slides more."""
+    below = max((row for row in rows if row[slip] < 0.0), key=lambda row: row[slip], default=None)
+    above = min((row for row in rows if row[slip] > 0.0), key=lambda row: row[slip], default=None)
+    if below is None or above is None or not done([below]) or not done([above]):
         return None
-    return float(-(right["Mz"] - left["Mz"]) / (right["Fy"] - left["Fy"]))
+    return below, above
 
 
 def _longitudinal(bench: Bench, rows: Sequence[Row]) -> Found:
     """Difference over the smallest slip ratios of both signs."""
     stiffness = []
     for load, pressure in sorted({(row["load"], row["pressure"]) for row in done(rows)}, key=str):
-        found = done(rows, load=load, pressure=pressure)
-        drives = min((row for row in found if row["slip_ratio"] > 0.0), key=lambda row: row["slip_ratio"], default=None)
-        brakes = max((row for row in found if row["slip_ratio"] < 0.0), key=lambda row: row["slip_ratio"], default=None)
-        if drives is not None and brakes is not None:
+        if (pair := _smallest(those(rows, load=load, pressure=pressure), "slip_ratio")) is not None:
+            brakes, drives = pair
             value = (drives["Fx"] - brakes["Fx"]) / (drives["slip_ratio"] - brakes["slip_ratio"])
             stiffness.append({"load": load, "pressure": pressure, "value": float(value)})
     return {"slip_stiffness": stiffness}

@@ -160,7 +160,10 @@ def _commented(made: Tir, rig: Rig, residuals: Mapping[str, Residual], left: Map
     """With what a reader of the file has to know at its top."""
     rows = rows_of(rig)
     counts = ", ".join(f"{test} {int((rows.tests == test).sum())}" for test in dict.fromkeys(rows.tests.tolist()))
+    failed = ", ".join(f"{name} {test.failed}" for name, test in rig.tests.items()
+                       if test.failed and name in (*CHANNELS_OF, "vertical", "relaxation"))
     lines = [f"{rig.title}: Magic Formula 6.1 by rondo, fitted to the points of a rig: {counts}",
+             *([f"Points of the rig that failed, and are not in this file: {failed}; their tables say why"] if failed else []),
              "Axes and signs: ISO 8855 (TYDEX W). SI units; angles in rad.",
              *((sentence(rig.plane, rig.width), ONLY_PLANE) if rig.plane else ()),
              *(f"{name}: rms {one.rms:.4g} {one.unit}, {100 * one.of_largest:.3g} % of the largest of {one.rows} points; "

@@ -62,10 +62,14 @@ def patch(length: Array, width: Array, load: Array, known: Mapping[str, float]) 
 
 
 def sizes_of(rig: Rig) -> dict[str, float]:
-    """UNLOADED_RADIUS of the inflated wheel: the height of its center and how far it has come down."""
+    """UNLOADED_RADIUS of the inflated wheel: the height of its center and how far it has come down; without such points, that
+    of the state of reference in rig.json."""
     found = points(rig, "vertical", ("height", "deflection"))
     radius = found["height"] + found["deflection"]
-    return {"UNLOADED_RADIUS": float(np.nanmean(radius))} if np.isfinite(radius).any() else {}
+    if np.isfinite(radius).any():
+        return {"UNLOADED_RADIUS": float(np.nanmean(radius))}
+    known = rig.info.get("radius")
+    return {"UNLOADED_RADIUS": float(known)} if isinstance(known, (int, float)) and known > 0 else {}
 
 
 def structure_of(rig: Rig, known: Mapping[str, float]) -> dict[str, float]:

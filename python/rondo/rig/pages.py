@@ -11,7 +11,7 @@ from ..data.files import read_json
 from ..data.rig import Rig, open_rig
 from .against import Comparison, compare
 from .blocks import MADE_OF
-from .figures import draw
+from .figures import pictures_of
 from .fit import write_tir
 from .record import replace_text, write_json
 from .report import write
@@ -35,8 +35,8 @@ def write_pages(directory: pathlib.Path, measured: pathlib.Path | None = None) -
                 print(f"rondo: warning: --against: {text}", file=sys.stderr)
         except Error as reason:
             trouble = reason
-    draw(rig, directory / "figures", against)
-    files += [directory / "figures", write(rig, directory / "report.html", against)]
+    pictures = pictures_of(rig, against, directory / "figures")
+    files += [directory / "figures", write(rig, directory / "report.html", against, pictures)]
     replace_text(directory / "figures" / MADE_OF, _identity(directory))
     if trouble is not None:
         raise trouble

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
-
 from ..studies.progress import readable_time
 from .blocks import SWEEP, Bench, Block
 from .states import States
+from .steady_tests import pressures_of
 from .tests_table import TESTS
 
 # Seconds of a block beside its points, and of a point, in those of a point of the reference.
@@ -25,18 +24,20 @@ def cost_of(block: Block, point_s: float) -> float:
 def plan_text(bench: Bench, tests: Sequence[str], left_out: Mapping[str, str], point_s: float, disk: int, jobs: int) -> str:
     """A line for each test, and one for all. left_out: tests that the wheel cannot do, and why; disk: bytes of the results of a
     state."""
-    radius = bench.radius  # about the height and the effective radius of all states
+    about = bench.radius, bench.radius  # the height and the effective radius of all states
     speeds = {speed for test in ("cleat", "road") for speed in bench.settings[test]["speeds"]}
-    curve = np.array([[0.0, radius, radius], [np.inf, radius, radius]])
-    states = States({0.0: curve, np.inf: curve}, dict.fromkeys(speeds, (radius, radius)))
+    loads = bench.settings["vertical"]["loads"]
+    states = States({(p, load): about for p in pressures_of(bench, "vertical") for load in loads}, dict.fromkeys(speeds, about))
     lines, total, points, parts = [], 0.0, 0, 0.0
     for name in tests:
         if name in left_out:
             lines.append(f"{name:20}left out: {left_out[name]}")
             continue
         blocks = TESTS[name].blocks(bench, states)
-        cost, count = sum(cost_of(block, point_s) for block in blocks), sum(len(block.points) for block in blocks)
+        cost, count = sum(cost_of(block, point_s) for block in blocks if block.points), sum(block.count for block in blocks)
         lines.append(f"{name:20}{count:5} points  about {readable_time(cost)} of one core")
+        if cannot := [why for block in blocks for _, why in block.cannot]:
+            lines.append(f"{'':20}{len(cannot):5} of them cannot begin: {cannot[0]}")
         total, points, parts = total + cost, points + count, parts + sum(0.1 if block.kind == SWEEP else 1.0 for block in blocks)
     lines.append(f"{'all':20}{points:5} points  about {readable_time(total / jobs + PAGES)} on {jobs} cores, with "
                  f"the report; {1e-6 * parts * disk:.0f} MB")

@@ -54,18 +54,20 @@ def write_table(directory: pathlib.Path, test: str, rows: Sequence[Row], bench: 
 
 
 def write_channels(directory: pathlib.Path, test: str, rows: Sequence[Row], bench: Bench) -> str | None:
-    """Its TYDEX file, of the points that are done; None: of a test without forces, or without points, and of forces per
-    metre of width, which the format does not have."""
+    """Its TYDEX file, of the points that are done, with the number of the others; None: of a test without forces, or without
+    points, and of forces per metre of width, which the format does not have."""
     found = [row for row in rows if row["status"] == DONE and not row.get("mirrored")]
     file = directory / f"{test}.tdx"
     if not TESTS[test].has_forces or not found or bench.per_metre:
         file.unlink(missing_ok=True)
         return None
     plane = bench.tyre.is_plane
-    columns = {name: [row[column] for row in found] for name, column in CHANNELS.items()
-               if found[0][column] is not None and not (plane and column in SIDEWAYS)}
+    columns = {name: [math.nan if row[column] is None else row[column] for row in found] for name, column in CHANNELS.items()
+               if any(row[column] is not None for row in found) and not (plane and column in SIDEWAYS)}
     columns["LONGVEL"] = [row["speed"] * math.cos(row["slip_angle"]) for row in found]
     comments = ["Computed states of steady rolling, not measured", bench.tyre.title[:70]]
+    if failed := sum(row["status"] != DONE and not row.get("mirrored") for row in rows):
+        comments.append(f"{failed} of {len(found) + failed} points failed and are left out: {test}.csv says why")
     if plane:
         comments += textwrap.wrap(sentence(bench.tyre.plane_kind, bench.top.get("width")), 70)
     write_tydex(file, tydex(columns, header={"RELEASE": "1.3", "MEASID": test}, comments=comments))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import pathlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,14 +13,16 @@ from .. import style
 from ..data.errors import Error
 from ..reports.document import Document, folded, note, paragraph, table, tiles
 from ..reports.encoding import escaped, number
-from ..reports.pictures import picture
-from .figures import figures_of, tir_of
+from ..reports.pictures import drawn_picture
+from .figures import Picture, pictures_of, tir_of
+from .figures.drawing import said
 from .fit import residuals_of, why_none
 from .fit_rows import rows_of
 from .merits import merits_of
 from .plane import NO_FILES, sentence
 from .points import DONE
 from .trends import trends
+from .units import column_name
 
 if TYPE_CHECKING:
     from ..data.rig import Rig, RigTest
@@ -28,7 +30,8 @@ if TYPE_CHECKING:
 
 FIT_IT = "rondo.rig.fit.write_tir(rig, rig.directory / \"tyre.tir\") fits it, or tells what is missing."
 HOW = ("case", "version", "build_id", "quick", "radius")  # of rig.json, besides the settings
-FINISHED, LEFT_OUT = "finished", "left out"  # statuses of a test; a wheel may have no such test
+STATE, SLIPS = ("load", "pressure", "camber", "slip_angle", "slip_ratio", "speed"), ("camber", "slip_angle", "slip_ratio")
+FINISHED, FAILED, LEFT_OUT = "finished", "failed", "left out"  # statuses of a test; a wheel may have no such test
 MEANINGS = {
     "vertical": "How far a wheel that rolls freely comes down under a load: its springing, and its radii.",
     "footprint": "Where the load is borne: size of the contact patch, pressure and shear in it.",
@@ -42,18 +45,19 @@ MEANINGS = {
     "road": "Forces on the axle on a rough road."}
 
 
-def write(rig: Rig, path: str | os.PathLike[str], against: Comparison | None = None) -> pathlib.Path:
-    """Writes the page; of a rig that has not ended what is there."""
-    return page(rig, against).write(pathlib.Path(path))
+def write(rig: Rig, path: str | os.PathLike[str], against: Comparison | None = None, pictures: Sequence[Picture] | None = None
+          ) -> pathlib.Path:
+    """Writes the page; of a rig that has not ended what is there. `pictures`: its figures; None: they are drawn here."""
+    return page(rig, against, pictures).write(pathlib.Path(path))
 
 
-def page(rig: Rig, against: Comparison | None = None) -> Document:
+def page(rig: Rig, against: Comparison | None = None, pictures: Sequence[Picture] | None = None) -> Document:
     document = Document(rig.title, "a tyre test rig")
     document.section("summary", "Summary", _summary(rig))
     drawn: dict[str, str] = {}
-    for one in figures_of(rig, against):
-        is_wide = bool(one.figure.get_size_inches()[0] >= style.PAGE)
-        drawn[one.test] = drawn.get(one.test, "") + picture(one.figure, one.words, is_wide)
+    for one in pictures_of(rig, against) if pictures is None else pictures:
+        shown = drawn_picture(one.png, one.size_in, one.words, is_wide=one.size_in[0] >= style.PAGE)
+        drawn[one.test] = drawn.get(one.test, "") + shown
     for name, test in rig.tests.items():
         document.section(f"test-{name}", escaped(name.replace("-", " ").capitalize()), _test(test, drawn.get(name, ""), rig.per_metre))
     if not rig.plane:  # all of them are of the slip angle or of air
@@ -68,24 +72,27 @@ def page(rig: Rig, against: Comparison | None = None) -> Document:
 
 
 def _summary(rig: Rig) -> str:
-    statuses = [status for test in rig.tests.values() if (status := str(test.info.get("status", ""))) != LEFT_OUT]
-    done, failed = statuses.count(FINISHED), sum(_failed(test) for test in rig.tests.values())
+    statuses = {name: status for name, test in rig.tests.items() if (status := str(test.info.get("status", ""))) != LEFT_OUT}
+    done, failed = list(statuses.values()).count(FINISHED), sum(test.failed for test in rig.tests.values())
     cards = [("tests finished", f"{done} of {len(statuses)}", "good" if done == len(statuses) else "warn", ""),
              ("points", number(sum(_points(test) for test in rig.tests.values())), "", "rows of all tables"),
              ("failed points", number(failed), "warn" if failed else "good", "each with its reason below")]
     forces = paragraph(escaped(sentence(rig.plane, rig.width))) if rig.plane else ""
     forces += note(NO_FILES) if rig.per_metre else ""
-    unfinished = "" if done == len(statuses) else note(
-        "Not all tests of this rig are finished: the page shows what is there. The command that began it goes on with it.")
-    return unfinished + forces + tiles(cards) + merits_of(rig)
+    return _unfinished(statuses) + forces + tiles(cards) + merits_of(rig)
+
+
+def _unfinished(statuses: Mapping[str, str]) -> str:
+    """What is missing: tests without any result, and tests that have not come to their end."""
+    without = [name for name, status in statuses.items() if status == FAILED]
+    said = note(f"All points of these tests failed: {', '.join(without)}. Their sections say why.") if without else ""
+    rest = [name for name, status in statuses.items() if status not in (FAILED, FINISHED)]
+    return said + (note(f"These tests are not finished: {', '.join(rest)}. The page shows what is there. The command that began "
+                        "the rig goes on with it.") if rest else "")
 
 
 def _points(test: RigTest) -> int:
     return len(test.table.get("status", ()))
-
-
-def _failed(test: RigTest) -> int:
-    return int((np.asarray(test.table.get("status", ()), dtype=str) == "failed").sum())
 
 
 def _value(value: Any) -> str:
@@ -107,19 +114,19 @@ def _fmu(told: Mapping[str, Any]) -> str:
 def _test(test: RigTest, drawn: str, per_metre: bool) -> str:
     status = str(test.info.get("status", "not begun"))
     reason = test.info.get("reason")
-    said = paragraph(escaped(MEANINGS.get(test.name, "")))
+    told = paragraph(escaped(MEANINGS.get(test.name, "")))
     if status != FINISHED:
-        said += note(f"Status: {status}{f': {reason}' if reason else ''}")
-    said += note(f"Note: {test.info['doubt']}") if test.info.get("doubt") else ""
-    said += paragraph(escaped(test.info["note"])) if test.info.get("note") else ""
-    said += _failures(test) + drawn
+        told += note(f"Status: {status}{f': {reason}' if reason else ''}")
+    told += note(f"Note: {test.info['doubt']}") if test.info.get("doubt") else ""
+    told += paragraph(escaped(test.info["note"])) if test.info.get("note") else ""
+    told += _failures(test, per_metre) + drawn
     if not test.table:
-        return said
+        return told
     head = [name for name, column in test.table.items() if name not in ("status", "reason") and _says_something(column)]
     rows = [[cell if isinstance(cell, str) else number(float(cell)) for cell in row]
             for row in zip(*(test.table[name].tolist() for name in head))]
     units = f"SI units{', forces and moments per metre of width' if per_metre else ''}"
-    return said + folded(f"Table of {_points(test)} point{'s' if _points(test) != 1 else ''}, {units}",
+    return told + folded(f"Table of {_points(test)} point{'s' if _points(test) != 1 else ''}, {units}",
                          table(head, rows, f"Points of the test {test.name}", ["number"] * len(head)))
 
 
@@ -127,13 +134,27 @@ def _says_something(column: np.ndarray) -> bool:
     return bool(np.isfinite(column).any() if column.dtype.kind == "f" else (column != "").any())
 
 
-def _failures(test: RigTest) -> str:
+def _state_of(test: RigTest, k: int, per_metre: bool) -> str:
+    """The number of a point of the table, and the state that was asked for."""
+    told = []
+    for name in STATE:
+        column = test.table.get(column_name(name, per_metre))
+        if column is not None and np.isfinite(column[k]) and (column[k] or name not in SLIPS):
+            told.append(said(name, float(column[k]), per_metre))
+    told += [f"step of the {test.table['step'][k].replace('-', ' ')}"] if "step" in test.table else []
+    told += ["standing" if test.table["standing"][k] else "free"] if "standing" in test.table else []
+    return f"point {k + 1} ({', '.join(told)})"
+
+
+def _failures(test: RigTest, per_metre: bool) -> str:
     if "status" not in test.table:
         return ""
     reasons = test.table.get("reason", np.full(_points(test), "no reason was kept"))
-    items = [f"<li>point {k + 1}: {escaped(str(reasons[k]))}</li>"
-             for k in np.flatnonzero(test.table["status"] != DONE)]
-    return f'<div class="note"><p>Points without results:</p><ul>{"".join(items)}</ul></div>' if items else ""
+    items: dict[str, list[str]] = {}  # points by their reason, which many may share
+    for k in np.flatnonzero(test.table["status"] != DONE):
+        items.setdefault(str(reasons[k]), []).append(_state_of(test, int(k), per_metre))
+    found = "".join(f"<li>{escaped('; '.join(states))}: {escaped(reason)}</li>" for reason, states in items.items())
+    return f'<div class="note"><p>Points without results:</p><ul>{found}</ul></div>' if found else ""
 
 
 def _trends(rig: Rig) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import difflib
-import math
 import pathlib
 import tomllib
 from collections.abc import Mapping
@@ -75,7 +74,9 @@ def _table(prefix: str, keys: tuple[Key, ...], found: Mapping[str, Any], wrong: 
     known = {key.name: key for key in keys}
     values: Values = {}
     for name, value in found.items():
-        if name not in known:
+        if name in tables_of(wheels) and not prefix:
+            wrong.append(f"{name}: is no table (allowed: [{name}], once)")
+        elif name not in known:
             there = [key.name for key in keys if key.wheels in (ALL, wheels)]
             wrong.append(f"{prefix}{name}: no such key (allowed: {_near(name, there)})")
         elif known[name].wheels not in (ALL, wheels):
@@ -111,9 +112,9 @@ def _is_right(key: Key, value: object) -> bool:
 
 
 def _is_number(key: Key, value: object) -> bool:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
         return False
-    return key.low <= value <= key.high and not (key.above and value == key.low)
+    return key.contains(value)
 
 
 def _plain(key: Key, value: Any) -> Any:

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
-from .blocks import RUN, Bench, Block, Point, steady_block, steady_case
+from ..data.errors import Error
+from .blocks import RUN, SWEEP, Bench, Block, Point, block_or_why_not, steady_block, steady_case
 from .states import States
 from .time_tests import plane_relaxation
 
@@ -88,11 +90,17 @@ def lateral(bench: Bench, states: States) -> list[Block]:
 
 def _slipping(bench: Bench, states: States, test: str, name: str, points: Sequence[Point]) -> Block:
     """With the speeds that the slip ratios ask for: spin times the effective radius over 1 + slip, along the heading."""
-    speeds = []
+    begun, speeds, cannot = [], [], []
     for p in points:
-        rim = bench.spin(p.speed) * states.effective_radius(p.pressure, p.load)
+        try:
+            rim = bench.spin(p.speed) * states.effective_radius(p.pressure, p.load)
+        except Error as reason:
+            cannot.append((p, str(reason)))
+            continue
+        begun.append(p)
         speeds.append(rim / (1.0 + (p.slip_ratio or 0.0)) / math.cos(p.slip_angle))
-    return steady_block(bench, test, name, points, speeds)
+    made = steady_block(bench, test, name, begun, speeds) if begun else Block(test, name, SWEEP, {}, ())
+    return replace(made, cannot=tuple(cannot))
 
 
 def longitudinal(bench: Bench, states: States) -> list[Block]:
@@ -131,15 +139,22 @@ def relaxation(bench: Bench, states: States) -> list[Block]:
     own, p = bench.settings["relaxation"], bench.pressure
     if bench.tyre.is_plane:
         return [plane_relaxation(bench, states, load) for load in own["loads"]]
-    blocks = []
-    for step, size in (("slip-angle", -math.radians(own["slip_angle_step_deg"])), ("slip-ratio", own["slip_ratio_step"])):
-        for load in own["loads"]:
-            case = steady_case(bench, "relaxation", p, bench.spin(), load, slip="upwind",
-                               **{f"{step.replace('-', '_')}_step": size, "step_distance": own["distance"]})
-            if step == "slip-ratio":
-                case["motion"]["speed"] = bench.spin() * states.effective_radius(p, load)
-            else:
-                case["analysis"]["torque"] = 0.0
-            blocks.append(Block("relaxation", f"relaxation-{step}-{load:.9g}N", RUN, case,
-                                (Point(load, p, bench.top["speed"], extra={"step": step}),)))
-    return blocks
+    return [_solid_relaxation(bench, states, step, Point(load, p, bench.top["speed"], extra={"step": step}))
+            for step in ("slip-angle", "slip-ratio") for load in own["loads"]]
+
+
+def _solid_relaxation(bench: Bench, states: States, step: str, p: Point) -> Block:
+    """By a step of the steady solver."""
+    own, by_angle = bench.settings["relaxation"], step == "slip-angle"
+    size = -math.radians(own["slip_angle_step_deg"]) if by_angle else own["slip_ratio_step"]
+
+    def made() -> Block:
+        case = steady_case(bench, "relaxation", p.pressure, bench.spin(), p.load, slip="upwind",
+                           **{f"{step.replace('-', '_')}_step": size, "step_distance": own["distance"]})
+        if by_angle:
+            case["analysis"]["torque"] = 0.0
+        else:
+            case["motion"]["speed"] = bench.spin() * states.effective_radius(p.pressure, p.load)
+        return Block("relaxation", f"relaxation-{step}-{p.load:.9g}N", RUN, case, (p,))
+
+    return block_or_why_not("relaxation", p, made)

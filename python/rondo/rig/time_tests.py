@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from ..data.errors import Error
-from .blocks import FMU, MODES, RUN, Bench, Block, Point, ground_of, steady_case, tyre_case
+from .blocks import FMU, MODES, RUN, Bench, Block, Point, block_or_why_not, ground_of, steady_case, tyre_case
 from .plane.slip_step import JUMP, steps_of, times_of
 from .states import States
 
@@ -72,9 +73,7 @@ def _held(bench: Bench, states: States, p: Point) -> tuple[float, float]:
     """Height and effective radius of free rolling at the speed of a point."""
     if p.speed == bench.top["speed"]:
         return states.height(p.pressure, p.load), states.effective_radius(p.pressure, p.load)
-    if p.speed not in states.by_speed:
-        raise Error(f"the wheel has no state of free rolling at {p.speed:g} m/s, and this test begins with its height")
-    return states.by_speed[p.speed]
+    return states.at_speed(p.speed)
 
 
 def _rolling(bench: Bench, states: States, name: str, p: Point, own: dict[str, Any], profile: Any, end: float) -> Block:
@@ -90,27 +89,35 @@ def _rolling(bench: Bench, states: States, name: str, p: Point, own: dict[str, A
     return Block(name.split("-")[0], name, RUN, case, (p,), options=("--reduced", "--modes", str(own["modes"])))
 
 
+def _at_speeds(bench: Bench, test: str, made: Callable[[Point], Block]) -> list[Block]:
+    """A block for each speed of a test, under the nominal load."""
+    points = [Point(bench.top["load"], bench.pressure, speed) for speed in bench.settings[test]["speeds"]]
+    return [block_or_why_not(test, p, partial(made, p)) for p in points]
+
+
 def cleat(bench: Bench, states: States) -> list[Block]:
-    own, blocks = bench.settings["cleat"], []
-    for speed in own["speeds"]:
-        p = Point(bench.top["load"], bench.pressure, speed)
-        at = speed * SETTLING + 0.5 * bench.radius
-        ramp = cleat_ramp(own["height"], own["length"], node_distance(bench))
+    own = bench.settings["cleat"]
+    ramp = cleat_ramp(own["height"], own["length"], node_distance(bench))
+
+    def made(p: Point) -> Block:
+        at = p.speed * SETTLING + 0.5 * bench.radius
         passed = at + 2.0 * ramp + own["length"] + 0.5 * bench.radius
-        end = passed / speed + AFTER
-        profile = cleat_profile(at, ramp, own["height"], own["length"], 2.0 * passed + speed)
-        blocks.append(_rolling(bench, states, f"cleat-{speed:.9g}mps", p, own, profile, end))
-    return blocks
+        end = passed / p.speed + AFTER
+        profile = cleat_profile(at, ramp, own["height"], own["length"], 2.0 * passed + p.speed)
+        return _rolling(bench, states, f"cleat-{p.speed:.9g}mps", p, own, profile, end)
+
+    return _at_speeds(bench, "cleat", made)
 
 
 def road(bench: Bench, states: States) -> list[Block]:
-    own, blocks = bench.settings["road"], []
-    for speed in own["speeds"]:
-        p = Point(bench.top["load"], bench.pressure, speed)
-        begin = speed * SETTLING + 0.5 * bench.radius
+    own = bench.settings["road"]
+
+    def made(p: Point) -> Block:
+        begin = p.speed * SETTLING + 0.5 * bench.radius
         profile = road_profile(own["roughness"], own["seed"], begin, own["length"])
-        blocks.append(_rolling(bench, states, f"road-{speed:.9g}mps", p, own, profile, (begin + own["length"]) / speed))
-    return blocks
+        return _rolling(bench, states, f"road-{p.speed:.9g}mps", p, own, profile, (begin + own["length"]) / p.speed)
+
+    return _at_speeds(bench, "road", made)
 
 
 def fmu(bench: Bench, states: States) -> Block:
@@ -141,7 +148,14 @@ def stable_step(bench: Bench) -> Block:
 
 def plane_relaxation(bench: Bench, states: States, load: float) -> Block:
     """Rolls freely at the height of its load, and turns on at the speed of another slip ratio."""
-    own, spin = bench.settings["relaxation"], bench.spin()
+    p = Point(load, None, bench.top["speed"], extra={"step": "slip-ratio"})
+    return block_or_why_not("relaxation", p, lambda: _plane_relaxation(bench, states, p))
+
+
+def _plane_relaxation(bench: Bench, states: States, p: Point) -> Block:
+    if bench.no_steps:
+        raise Error(bench.no_steps)
+    own, spin, load = bench.settings["relaxation"], bench.spin(), p.load
     speed = spin * states.effective_radius(None, load)
     after = speed / (1.0 + own["slip_ratio_step"])
     pass_s = 2.0 * math.pi / spin / bench.top["sectors"]
@@ -155,8 +169,7 @@ def plane_relaxation(bench: Bench, states: States, load: float) -> Block:
     case["initial"] = {"state": "steady-rolling"}
     case["time"] = {"end": end, "step": step}
     case["output"] = {"stress": False, "snapshots": 1, "history_interval": interval}
-    point = Point(load, None, bench.top["speed"], extra={"step": "slip-ratio"})
-    return Block("relaxation", f"relaxation-slip-ratio-{load:.9g}N{'-per-m' if bench.per_metre else ''}", RUN, case, (point,))
+    return Block("relaxation", f"relaxation-slip-ratio-{load:.9g}N{'-per-m' if bench.per_metre else ''}", RUN, case, (p,))
 
 
 def modes(bench: Bench, states: States) -> list[Block]:

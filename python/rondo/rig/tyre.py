@@ -14,7 +14,7 @@ from .keys import PLANE, SPACE
 from .plane import demand_plane_wheel, is_plane, kind_of
 from .plane.slip_step import sectors_of
 
-# What the rig reads of a case by itself: a case that has it of another kind is refused. `rondo check` tells all that is wrong.
+# What the rig reads of a case before the program has checked it (checks/case.py): a case that has it of another kind is refused.
 TABLES = ("section", "disk", "disk.mesh", "disk.tread", "material", "inflation", "damping", "motion", "ground", "analysis", "rim")
 LISTS_OF_TABLES = ("material.region", "cords")
 COUNTS = {"section.sectors": 1, "disk.mesh.circumferential": 1, "disk.tread.pitches": 1, "disk.tread.land_columns": 1,
@@ -37,15 +37,23 @@ class Tyre:
     @property
     def load(self) -> float | None:
         """N, of a plane wheel N/m: of the analysis, or the last of the table of the rim."""
-        found = self.case.get("analysis", {}).get("load")
-        if not isinstance(found, (int, float)):
-            found = -(_last(self.case.get("rim", {}).get("force_y")) or 0.0)
+        found = self.case["analysis"]["load"] if self.says_load == "analysis.load" else \
+            -(_last(self.case.get("rim", {}).get("force_y")) or 0.0)
         return float(found) if found > 0.0 else None
 
     @property
+    def says_load(self) -> str:
+        """The key of the case that has the load."""
+        return "analysis.load" if "load" in self.case.get("analysis", {}) else "rim.force_y"
+
+    @property
+    def has_air(self) -> bool:
+        return "inflation" in self.case
+
+    @property
     def pressure(self) -> float | None:
-        found = self.case.get("inflation", {}).get("pressure")
-        return float(found) if found is not None else None
+        """Pa; None: a wheel without air."""
+        return float(self.case["inflation"].get("pressure", 0.0)) if self.has_air else None
 
     @property
     def sectors(self) -> int:
@@ -100,8 +108,8 @@ class Tyre:
 
 def read_tyre(path: pathlib.Path) -> Tyre:
     """@raise InputError: no TOML, or no wheel that the rig can test."""
-    text = text_of(path)
     try:
+        text = text_of(path)
         case = tomllib.loads(text)
     except ValueError as reason:
         raise InputError(f"{path}: cannot be read: {reason}") from None
@@ -121,6 +129,18 @@ def read_tyre(path: pathlib.Path) -> Tyre:
     if "section" not in case and "tread" not in disk and "circumferential" not in disk.get("mesh", {}):
         raise InputError(f"{path}: disk.mesh.circumferential: is missing (allowed: columns of elements around the axle, as 120)")
     return Tyre(path, text, case)
+
+
+def read_mesh(tyre: Tyre) -> tuple[bytes, str]:
+    """The file of its section, and the name of that; nothing of a disk. @raise InputError: it cannot be read."""
+    name = tyre.case.get("section", {}).get("file")
+    if name is None:
+        return b"", ""
+    path = tyre.path.parent / name
+    try:
+        return path.read_bytes(), path.name
+    except OSError as reason:
+        raise InputError(f"{tyre.path}: section.file: {path}: cannot be read: {reason.strerror}") from None
 
 
 def _demand_kinds(path: pathlib.Path, case: dict[str, Any]) -> None:

@@ -72,8 +72,8 @@ def demand_plane_wheel(path: pathlib.Path, case: Mapping[str, Any]) -> None:
         raise InputError(f"{path}: [mesh]: {STEADY} a wheel has to be the same around its axle, and a mesh from a file is not "
                          "known to be (allowed: a [disk]; for this wheel, rondo sweep varies load, slip and speed of runs in "
                          "time, docs/studies.md)")
-    if _table(case, "disk").get("rim", "held") == "free":
-        raise InputError(f'{path}: disk.rim = "free": the rig turns the wheel by its rim (allowed: disk.rim = "held")')
+    if _table(case, "disk").get("rim", "bonded") == "free":
+        raise InputError(f'{path}: disk.rim = "free": the rig turns the wheel by its rim (allowed: disk.rim = "bonded")')
     material = _table(case, "material")
     for where, one in (("material", material), *(("material.region", region) for region in material.get("region", []))):
         if one.get("model", "linear") != "linear":

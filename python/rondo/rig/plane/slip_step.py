@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...data.errors import Error
+from ..checks.step_size import demand_small, friction_of
 
 if TYPE_CHECKING:
     from ...data.run import Run
@@ -29,9 +30,6 @@ JUMP = 0.1      # of the pass of a sector: how long the speed takes for its step
 LAST = 0.1      # of the distance: its force counts as that after the step
 UNSETTLED = 0.02  # of the change: how much the force may still change from the last tenth but one to the last
 LENGTHS = 41    # that a fit tries at once
-# Of what friction carries: the most that a step may change the force. Measured beside a step of 0.002 (docs/rig.md, 4), the
-# length of a disk is 5 % shorter where the step takes 26 % of it, 8 % at 35 %, 17 % at 65 %.
-CARRIED = 0.4
 APART = 2.0     # times: the most that the length at 63.2 % and that of the exponential may differ; vibrations alone make 1.7
 
 
@@ -101,26 +99,10 @@ def slip_step_of(run: Run) -> SlipStep:
         raise Error("force_x has not settled after the step: roll farther (relaxation.distance)")
     slip_speed = abs(float(speed_before) - float(speed))
     carried = friction_of(run.case, slip_speed) * abs(float(np.mean(run.history["force_y"])))
-    _demand_small(abs(float(last) - before), carried, slip_speed / abs(float(speed)))
+    demand_small(abs(float(last) - before), carried, f"slip ratio, {slip_speed / abs(float(speed)):.3g}", "force_x", "slip_ratio_step")
     step = SlipStep(distance, force, before, float(last))
     _demand_exponential(step)
     return step
-
-
-def friction_of(case: Mapping[str, Any], slip_speed: float) -> float:
-    """The smaller coefficient of those at rest and at this slip speed. The factor of the pressure is taken as 1."""
-    friction = case["ground"]["friction"]
-    if not isinstance(friction, Mapping):
-        return float(friction)
-    speeds, factors = np.array(friction.get("slip_speed", [[0.0, 1.0]]), dtype=float).T
-    return float(friction["coefficient"]) * float(np.interp([0.0, slip_speed], speeds, factors).min())
-
-
-def _demand_small(change: float, carried: float, ratio: float) -> None:
-    if not change <= CARRIED * carried:
-        raise Error(f"the step of the slip ratio, {ratio:.3g}, changes force_x by {100.0 * change / carried if carried else np.inf:.0f} % of what "
-                    f"friction carries, and the contact slides, which makes the relaxation length shorter (allowed: up to {100.0 * CARRIED:.0f} %): "
-                    "make the step smaller (relaxation.slip_ratio_step)")
 
 
 def _demand_exponential(step: SlipStep) -> None:
