@@ -96,7 +96,7 @@ def test_trends_with_both_numbers(finished, whole):
         "Cornering stiffness grows ever less with the load": True,
         "Cornering stiffness at a low load falls with the pressure": True,
         "Pneumatic trail grows with the load": True, "Radial stiffness grows with the pressure": True}
-    assert found["Pneumatic trail grows with the load"].found == "15, 24, 33 mm at 2, 4, 6 kN"
+    assert found["Pneumatic trail grows with the load"].found == "15, 24, 33 mm at 2, 4, 6 kN and 220 kPa"
     for one in found.values():
         assert one.found in whole.text and one.measured in whole.text
 

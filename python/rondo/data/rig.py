@@ -22,7 +22,7 @@ class RigTest:
     """One test: its points, and what rig.json says of it."""
 
     name: str
-    info: dict[str, Any]           # status, reason, points, failed, seconds, figures
+    info: dict[str, Any]           # status, reason, points, failed, doubt, figures
     table: dict[str, np.ndarray]   # (points,) each, SI and ISO-W; {}: none yet
 
     @property

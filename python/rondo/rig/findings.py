@@ -12,6 +12,7 @@ from .rows import done, those
 from .states import Row
 
 Found = dict[str, list[dict[str, Any]]]
+_LARGE_RIPPLE, _OTHER_LOAD = 0.05, 0.1  # of the load
 _LARGE_SHARE = 0.05  # of the discretisation in the power, above which rondo warns
 
 
@@ -84,11 +85,27 @@ def _rolling_resistance(bench: Bench, rows: Sequence[Row]) -> Found:
 
 def doubt_of(name: str, rows: Sequence[Row]) -> str:
     """What is to be known of the rows of a test before they are used; "": nothing."""
+    if name in ("cleat", "road"):
+        return _doubt_of_courses(name, done(rows))
     share = max((abs(row.get("scheme_share") or 0.0) for row in done(rows)), default=0.0)
     if name != "rolling-resistance" or share <= _LARGE_SHARE:
         return ""
     return (f"the discretisation takes up to {100 * share:.0f} % of the power, and resistances may be wrong by as much: "
-            "another samples_per_sector, more first; more sectors")
+            "try another samples_per_sector, larger ones first, or more sectors")
+
+
+def _doubt_of_courses(name: str, rows: Sequence[Row]) -> str:
+    """What is in the forces before the cleat or the road: another load than the one asked for, and a swing."""
+    said = []
+    ripple = max((row["ripple_Fz"] / row["load"] for row in rows), default=0.0)
+    apart = max((abs(row["mean_Fz"] / row["load"] - 1.0) for row in rows), default=0.0)
+    if ripple > _LARGE_RIPPLE:
+        said.append(f"before the {name} the vertical force swings by up to {100 * ripple:.0f} % of the load (standard deviation), as nodes pass the "
+                    "contact, and peaks and rms contain this swing: try more sectors")
+    if apart > _OTHER_LOAD:
+        said.append(f"at the height of the load the reduced wheel has a vertical force that differs from it by up to {100 * apart:.0f} %: try "
+                    "more modes")
+    return "; ".join(said)
 
 
 def _relaxation(bench: Bench, rows: Sequence[Row]) -> Found:
@@ -97,17 +114,23 @@ def _relaxation(bench: Bench, rows: Sequence[Row]) -> Found:
 
 
 def _cleat(bench: Bench, rows: Sequence[Row]) -> Found:
-    return {f"peak_to_peak_{name}": [{"speed": row["speed"], "value": row[f"peak_to_peak_{name}"]} for row in done(rows)]
-            for name in ("Fx", "Fz")}
+    return {f"peak_to_peak_{name}": _at_speeds(rows, f"peak_to_peak_{name}") for name in ("Fx", "Fz")}
 
 
 def _road(bench: Bench, rows: Sequence[Row]) -> Found:
-    return {f"rms_{name}": [{"speed": row["speed"], "value": row[f"rms_{name}"]} for row in done(rows)] for name in ("Fx", "Fz")}
+    return {f"rms_{name}": _at_speeds(rows, f"rms_{name}") for name in ("Fx", "Fz")}
+
+
+def _at_speeds(rows: Sequence[Row], name: str) -> list[dict[str, Any]]:
+    return [{"load": row["load"], "pressure": row["pressure"], "speed": row["speed"], "value": row[name]} for row in done(rows)]
 
 
 def _modes(bench: Bench, rows: Sequence[Row]) -> Found:
-    return {f"first_frequency_{name}": [{"value": row["frequency"]} for row in done(rows, standing=standing, mode=1)]
-            for name, standing in (("free", 0), ("standing", 1))}
+    def first(standing: int) -> list[dict[str, Any]]:
+        return [{**({"load": row["load"]} if standing else {}), "pressure": row["pressure"], "value": row["frequency"]}
+                for row in done(rows, standing=standing, mode=1)]
+
+    return {f"first_frequency_{name}": first(standing) for name, standing in (("free", 0), ("standing", 1))}
 
 
 _FINDERS: Mapping[str, Callable[[Bench, Sequence[Row]], Found]] = {

@@ -21,6 +21,7 @@ TEST = "relaxation"
 # By step: what it is, key of C_0, beginning of the others, stiffness of the file.
 STEPS = {"slip-ratio": ("slip ratio", "LONGITUDINAL_STIFFNESS", "PCFX", "slip_stiffness"),
          "slip-angle": ("slip angle", "LATERAL_STIFFNESS", "PCFY", "cornering_stiffness")}
+EXACT = 1e-9  # relative: what is less is round-off
 MOST = 3  # coefficients of C over the load
 EVERY = 201  # loads between those of the rig and of the file, at which C is to be above 0
 
@@ -46,7 +47,7 @@ def with_relaxation(made: Tir, rig: Rig) -> tuple[Tir, list[str]]:
         fewer = _fewer(values, here["load"])
         apart = float(np.abs(again / here["relaxation_length_fit"] - 1.0).max())
         lines.append(f"Relaxation lengths of the {name}: {key} is the {slope} of this file over the length of the rig, "
-                     f"sigma = K / C; met to {100 * apart:.2g} % at {len(change)} load{'s' if len(change) != 1 else ''}{fewer}")
+                     f"sigma = K / C; met {f'to {100 * apart:.2g} %' if apart > EXACT else 'exactly'} at {len(change)} load{'s' if len(change) != 1 else ''}{fewer}")
     return made, lines
 
 

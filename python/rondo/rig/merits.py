@@ -23,7 +23,7 @@ MERITS = {("vertical", "radial_stiffness"): ("Radial stiffness", 1e-3, "N/mm"),
           ("lateral", "pneumatic_trail"): ("Pneumatic trail", 1e3, "mm"),
           ("lateral", "ply_steer_force"): ("Ply steer force", 1.0, "N"),
           ("lateral", "conicity_force"): ("Conicity force", 1.0, "N"),
-          ("longitudinal", "slip_stiffness"): ("Slip stiffness", 1e-3, "kN"),
+          ("longitudinal", "slip_stiffness"): ("Slip stiffness", 1e-5, "kN/%"),
           ("rolling-resistance", "coefficient"): ("Rolling resistance coefficient", 1.0, "N/kN"),
           ("relaxation", "length"): ("Relaxation length, 63.2 % of the change", 1.0, "m"),
           **{("cleat", f"peak_to_peak_{force}"): (f"{force} over the cleat, peak to peak", 1.0, "N") for force in ("Fx", "Fz")},
@@ -51,7 +51,7 @@ def merits_of(rig: Rig) -> str:
             usual_rows += [row for one, row in zip(entries, rows) if all(one.get(key) == value for key, value in usual.items())]
     if not whole:
         return ""
-    shown = table(HEAD, usual_rows, "Figures of merit at the nominal load, pressure and speed")
+    shown = table(HEAD, usual_rows, "Figures of merit at the nominal load, pressure and speed, or at the points next to them")
     return shown + (folded(f"All {len(whole)} figures of merit", table(HEAD, whole, "Figures of merit"))
                     if len(whole) > len(usual_rows) else "")
 
@@ -69,8 +69,8 @@ def _nominal(rig: Rig, entries: Sequence[Mapping[str, Any]]) -> dict[str, float]
 
 
 def _at(one: Mapping[str, Any], per_metre: bool) -> str:
-    return ", ".join(said(key, float(value), per_metre) if _is_number(value) else str(value).replace("-", " ")
-                     for key, value in one.items() if key in (*STATES, "step") and value is not None)
+    return ", ".join(said(key, float(one[key]), per_metre) if _is_number(one[key]) else str(one[key]).replace("-", " ")
+                     for key in (*STATES, "step") if one.get(key) is not None)
 
 
 def _is_number(value: Any) -> bool:

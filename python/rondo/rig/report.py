@@ -18,11 +18,12 @@ from .figures import Picture, pictures_of, tir_of
 from .figures.drawing import said
 from .fit import residuals_of, why_none
 from .fit_rows import rows_of
+from .keys import TABLES, TOP
 from .merits import merits_of
 from .plane import NO_FILES, sentence
 from .points import DONE
 from .trends import trends
-from .units import column_name
+from .units import column_name, of_width
 
 if TYPE_CHECKING:
     from ..data.rig import Rig, RigTest
@@ -33,16 +34,18 @@ HOW = ("case", "version", "build_id", "quick", "radius")  # of rig.json, besides
 STATE, SLIPS = ("load", "pressure", "camber", "slip_angle", "slip_ratio", "speed"), ("camber", "slip_angle", "slip_ratio")
 FINISHED, FAILED, LEFT_OUT = "finished", "failed", "left out"  # statuses of a test; a wheel may have no such test
 MEANINGS = {
-    "vertical": "How far a wheel that rolls freely comes down under a load: its springing, and its radii.",
-    "footprint": "Where the load is borne: size of the contact patch, pressure and shear in it.",
-    "longitudinal": "Braking and driving: the slope at no slip is the slip stiffness, the end is friction.",
-    "lateral": "Cornering: the slope at no slip angle is the cornering stiffness; moment over force is the trail.",
-    "combined": "Braking and cornering at once share the friction.",
-    "rolling-resistance": "What rolling costs: a moment against the spin.",
-    "relaxation": "How far the wheel rolls until a force has followed its slip.",
-    "cleat": "Forces on the axle as the wheel rolls over an obstacle.",
-    "modes": "Frequencies and shapes of small vibrations.",
-    "road": "Forces on the axle on a rough road."}
+    "vertical": "The wheel rolls freely straight ahead: its deflection, loaded radius and effective radius over the load.",
+    "footprint": "Size of the contact patch of the wheel that rolls freely, and the pressure and shear in it.",
+    "longitudinal": "The wheel brakes and drives without slip angle. The slope of the force at no slip is the slip stiffness; at large slip "
+                    "the force is what friction carries.",
+    "lateral": "The wheel rolls freely at slip angles. The slope of the lateral force at no slip angle is the cornering stiffness; the "
+               "aligning moment over the lateral force is the pneumatic trail.",
+    "combined": "The wheel brakes and drives at slip angles: both forces share the friction.",
+    "rolling-resistance": "The force that moves a wheel which rolls freely, and this force over the load, the coefficient.",
+    "relaxation": "The distance that the wheel rolls after a small step of its slip, until the force has followed.",
+    "cleat": "The wheel rolls over a cleat with its center at a constant height: forces of the ground in time.",
+    "modes": "Natural frequencies and damping ratios of the wheel that does not turn, free and on the ground.",
+    "road": "The wheel rolls on a rough road with its center at a constant height: forces of the ground in time."}
 
 
 def write(rig: Rig, path: str | os.PathLike[str], against: Comparison | None = None, pictures: Sequence[Picture] | None = None
@@ -59,7 +62,7 @@ def page(rig: Rig, against: Comparison | None = None, pictures: Sequence[Picture
         shown = drawn_picture(one.png, one.size_in, one.words, is_wide=one.size_in[0] >= style.PAGE)
         drawn[one.test] = drawn.get(one.test, "") + shown
     for name, test in rig.tests.items():
-        document.section(f"test-{name}", escaped(name.replace("-", " ").capitalize()), _test(test, drawn.get(name, ""), rig.per_metre))
+        document.section(f"test-{name}", escaped(name.replace("-", " ").capitalize()), _test(rig, test, drawn.get(name, "")))
     if not rig.plane:  # all of them are of the slip angle or of air
         document.section("trends", "Trends of tyres", _trends(rig))
     document.section("fit", "The fitted tyre.tir", _fit(rig))
@@ -76,10 +79,12 @@ def _summary(rig: Rig) -> str:
     done, failed = list(statuses.values()).count(FINISHED), sum(test.failed for test in rig.tests.values())
     cards = [("tests finished", f"{done} of {len(statuses)}", "good" if done == len(statuses) else "warn", ""),
              ("points", number(sum(_points(test) for test in rig.tests.values())), "", "rows of all tables"),
-             ("failed points", number(failed), "warn" if failed else "good", "each with its reason below")]
+             ("failed points", number(failed), "warn" if failed else "good", "each with its reason below" if failed else "")]
     forces = paragraph(escaped(sentence(rig.plane, rig.width))) if rig.plane else ""
     forces += note(NO_FILES) if rig.per_metre else ""
-    return _unfinished(statuses) + forces + tiles(cards) + merits_of(rig)
+    doubts = [note(f"{name.replace('-', ' ').capitalize()}: {test.info['doubt']}.") for name, test in rig.tests.items()
+              if test.info.get("doubt")]
+    return _unfinished(statuses) + "".join(doubts) + forces + tiles(cards) + merits_of(rig)
 
 
 def _unfinished(statuses: Mapping[str, str]) -> str:
@@ -96,9 +101,7 @@ def _points(test: RigTest) -> int:
 
 
 def _value(value: Any) -> str:
-    """Numbers, lists and tables of them as text."""
-    if isinstance(value, Mapping):
-        return "; ".join(f"{key}: {_value(part)}" for key, part in value.items())
+    """Numbers and lists of them as text."""
     if isinstance(value, (list, tuple)):
         return ", ".join(map(_value, value))
     if isinstance(value, bool):
@@ -111,22 +114,23 @@ def _fmu(told: Mapping[str, Any]) -> str:
         paragraph(escaped(f"tyre.fmu has the reduced wheel for co-simulation (docs/fmu.md). {told.get('note', '')}"))
 
 
-def _test(test: RigTest, drawn: str, per_metre: bool) -> str:
+def _test(rig: Rig, test: RigTest, drawn: str) -> str:
     status = str(test.info.get("status", "not begun"))
     reason = test.info.get("reason")
     told = paragraph(escaped(MEANINGS.get(test.name, "")))
     if status != FINISHED:
         told += note(f"Status: {status}{f': {reason}' if reason else ''}")
-    told += note(f"Note: {test.info['doubt']}") if test.info.get("doubt") else ""
+    told += note(f"Note: {test.info['doubt']}.") if test.info.get("doubt") else ""
     told += paragraph(escaped(test.info["note"])) if test.info.get("note") else ""
-    told += _failures(test, per_metre) + drawn
+    told += _failures(test, rig.per_metre) + drawn
     if not test.table:
         return told
-    head = [name for name, column in test.table.items() if name not in ("status", "reason") and _says_something(column)]
+    shown = [name for name, column in test.table.items() if name not in ("status", "reason") and _says_something(column)]
     rows = [[cell if isinstance(cell, str) else number(float(cell)) for cell in row]
-            for row in zip(*(test.table[name].tolist() for name in head))]
-    units = f"SI units{', forces and moments per metre of width' if per_metre else ''}"
-    return told + folded(f"Table of {_points(test)} point{'s' if _points(test) != 1 else ''}, {units}",
+            for row in zip(*(test.table[name].tolist() for name in shown))]
+    units = {name: unit for name in shown if (unit := rig.info.get("units", {}).get("columns", {}).get(name, "1")) != "1"}
+    head = [f"{name} ({units[name]})" if name in units else name for name in shown]
+    return told + folded(f"Table of {_points(test)} point{'s' if _points(test) != 1 else ''}",
                          table(head, rows, f"Points of the test {test.name}", ["number"] * len(head)))
 
 
@@ -161,7 +165,7 @@ def _trends(rig: Rig) -> str:
     words = {True: "yes", False: "no", None: "not told by these points"}
     return paragraph("What pneumatic tyres do, with the numbers of a measured racing tyre (Hoosier 43075 16×7.5-10, data "
                      "of the FSAE Tire Test Consortium). Trends are compared, not values.") + \
-        table(("trend", "measured tyre", "this rig", "the same"),
+        table(("trend", "measured tyre", "this rig", "holds for this rig"),
               [(one.name, one.measured, one.found, words[one.holds]) for one in trends(rig)], "Trends")
 
 
@@ -189,8 +193,21 @@ def _against(against: Comparison) -> str:
 
 
 def _how(rig: Rig) -> str:
-    rows = [(key, _value(value)) for key, value in rig.info.items() if key in HOW]
-    rows += [(f"settings: {key}", _value(value)) for key, value in rig.settings.items()]
-    times = [(name, str(test.info.get("status", "")), number(test.info.get("seconds"), 3))
-             for name, test in rig.tests.items()]
-    return table(("", ""), rows, "Case, version and settings") + table(("test", "status", "seconds"), times, "Tests")
+    rows = [(key.replace("_", " "), f"{_value(value)}{' m' if key == 'radius' else ''}") for key, value in rig.info.items() if key in HOW]
+    for key, value in rig.settings.items():
+        if isinstance(value, Mapping):
+            rows.append((f"settings: {key}", "; ".join(_setting(rig, key, name, one) for name, one in value.items())))
+        else:
+            rows.append((f"settings: {key}", _value(value) + _unit(rig, TOP, key)))
+    tests = [(name, str(test.info.get("status", "")), number(_points(test)), number(test.failed)) for name, test in rig.tests.items()]
+    return table(("", ""), rows, "Case, version and settings") + table(("test", "status", "points", "failed"), tests, "Tests")
+
+
+def _setting(rig: Rig, table_name: str, name: str, value: Any) -> str:
+    return f"{name}: {_value(value)}{_unit(rig, table_name, name)}"
+
+
+def _unit(rig: Rig, table_name: str, name: str) -> str:
+    """Of a key of the rig file, after a blank; "": it has none."""
+    unit = next((key.unit for key in TABLES.get(table_name, ()) if key.name == name), "1")
+    return "" if unit == "1" else f" {of_width(unit, rig.per_metre)}"

@@ -44,23 +44,23 @@ def _concave(one: Columns) -> Trend:
     stiffness = 1e-3 * np.radians(one["stiffness"])
     holds = None if len(stiffness) < LEAST else bool((np.diff(_chords(one["load"], stiffness)) < 0).all())
     return Trend("Cornering stiffness grows ever less with the load",
-                 ".319, .530, .686, .832 kN/° at .48, 1.07, 1.60, 2.71 kN, 69 kPa",
-                 _told(stiffness, "kN/°", 1e-3 * one["load"], "kN"), holds)
+                 "0.319, 0.530, 0.686, 0.832 kN/° at 0.48, 1.07, 1.60, 2.71 kN and 69 kPa",
+                 _told(stiffness, "kN/°", 1e-3 * one["load"], "kN") + _air(one), holds)
 
 
 def _softer_with_pressure(found: Columns) -> Trend:
     """At the lowest load with several pressures."""
     one = _lowest_load(found)
     stiffness = 1e-3 * np.radians(one["stiffness"])
-    at = f" at {1e-3 * one['load'][0]:.3g} kN" if len(stiffness) else ""
-    return Trend("Cornering stiffness at a low load falls with the pressure", ".319, .300, .263 kN/° at 69, 83, 97 kPa; .48 kN",
+    at = f" and {1e-3 * one['load'][0]:.3g} kN" if len(stiffness) else ""
+    return Trend("Cornering stiffness at a low load falls with the pressure", "0.319, 0.300, 0.263 kN/° at 69, 83, 97 kPa and 0.48 kN",
                  _told(stiffness, "kN/°", 1e-3 * one["pressure"], "kPa") + at, _falls(stiffness))
 
 
 def _trail(upright: Columns) -> Trend:
     one = chosen(upright, np.isfinite(upright["trail"]))
-    return Trend("Pneumatic trail grows with the load", "22, 29, 34, 49 mm at .48, 1.07, 1.60, 2.71 kN, 69 kPa",
-                 _told(1e3 * one["trail"], "mm", 1e-3 * one["load"], "kN"), _falls(-one["trail"]))
+    return Trend("Pneumatic trail grows with the load", "22, 29, 34, 49 mm at 0.48, 1.07, 1.60, 2.71 kN and 69 kPa",
+                 _told(1e3 * one["trail"], "mm", 1e-3 * one["load"], "kN") + _air(one), _falls(-one["trail"]))
 
 
 def _radial(curves: dict[float, Columns]) -> Trend:
@@ -69,7 +69,7 @@ def _radial(curves: dict[float, Columns]) -> Trend:
     most = min((one["load"].max() for one in curves.values()), default=np.nan)
     load = 0.5 * (least + most)
     slopes = np.array([np.interp(load, one["load"], one["stiffness"]) for one in curves.values()]) if load > 0 else np.empty(0)
-    at = f" at {1e-3 * load:.3g} kN" if len(slopes) else ""
+    at = f" and {1e-3 * load:.3g} kN" if len(slopes) else ""
     return Trend("Radial stiffness grows with the pressure", "197, 236 N/mm at 69, 97 kPa",
                  _told(1e-3 * slopes, "N/mm", 1e-3 * np.array(list(curves)[:len(slopes)]), "kPa") + at, _falls(-slopes))
 
@@ -92,6 +92,10 @@ def _lowest_load(found: Columns) -> Columns:
 
 def _ordered(found: Columns, name: str) -> Columns:
     return chosen(found, np.argsort(found[name]))
+
+
+def _air(one: Columns) -> str:
+    return f" and {1e-3 * one['pressure'][0]:.3g} kPa" if len(one["pressure"]) and one["pressure"][0] else ""
 
 
 def _told(values: Array, unit: str, places: Sequence[float] | Array, place_unit: str) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from ...data.errors import Error
 
 # Of what friction carries: the most that a step may change the force. Beside small steps the length of a plane disk is 5 % shorter
-# where the step takes 26 % of it, 8 % at 35 %, 17 % at 65 %; that of a wheel in three dimensions 8 % at 45 % (docs/rig.md, 4).
+# where the step takes 26 % of it, 8 % at 35 %, 17 % at 65 %; that of a wheel in three dimensions 8 % at 32 to 46 % (docs/rig.md, 1).
 CARRIED = 0.4
 
 

@@ -20,8 +20,9 @@ if TYPE_CHECKING:
 FORCES = (("force_x", "longitudinal force", "$F_x$"), ("force_y", "vertical force", "$F_z$"))  # of the ground on the wheel
 HIGHEST = 250.0  # Hz: what reaches the axle of a car through its tyre, and is felt and heard, is below
 BEFORE = 0.5     # radii ahead of the cleat or the road: where the courses begin, as the peaks of the tables do
-TESTS = {"cleat": "Forces of the ground on the wheel over a cleat, and the amplitudes of their spectra, by speed",
-         "road": "Forces of the ground on the wheel on a rough road, and their power spectral densities, by speed"}
+TESTS = {"cleat": "Forces of the ground on the wheel over a cleat{size}, and the amplitudes of their spectra, by speed{state}",
+         "road": "Forces of the ground on the wheel on a rough road{size}, and their power spectral densities, by speed{state}"}
+BEGINS = {"cleat": "edge of the cleat", "road": "begin of the road"}
 
 
 def draw(given: Given) -> Iterator[Drawn]:
@@ -52,14 +53,31 @@ def _courses(given: Given, test: str, words: str) -> Iterator[Drawn]:
                 continue
             felt = (frequency > 0) & (frequency <= HIGHEST)
             curve(below, k, frequency[felt], (width ** 2 if test == "road" else width) * height[felt], marked=False)
-        ax.set(xlabel=f"way of the center from where the {test} begins (m)", ylabel=f"{label} {symbol} (k{unit})")
+        ax.set(xlabel=f"distance of the center from the {BEGINS[test]} (m)", ylabel=f"{label} {symbol} (k{unit})")
         below.set(xlabel="frequency (Hz)",
                   ylabel=f"density of {symbol} ({density})" if test == "road" else f"amplitude of {symbol} ({unit})",
                   xlim=(0, None))
         if below.lines:
             below.set_yscale("log")
     legend(figure, [given.said("speed", speed) for speed, _ in drawn], marks=False)
-    yield Drawn(test, test, f"{words}.{missing.words}", figure)
+    said = words.format(size=_size(given, test), state=_state(given, found))
+    yield Drawn(test, test, f"{said}.{missing.words}", figure)
+
+
+def _size(given: Given, test: str) -> str:
+    """Of the cleat or the road, as the settings have it; "": they do not say it."""
+    own = given.rig.settings.get(test, {})
+    if test == "cleat" and {"height", "length"} <= own.keys():
+        return f" that is {1e3 * own['height']:.3g} mm high and {1e3 * own['length']:.3g} mm long at its top"
+    if test == "road" and "roughness" in own:
+        return f" (ISO 8608, {1e6 * own['roughness']:.3g}·10⁻⁶ m³ at 0.1 cycles a metre)"
+    return ""
+
+
+def _state(given: Given, found: Columns) -> str:
+    values = [(name, nominal(given.rig, name, found[name])) for name in ("load", "pressure")]
+    told = [given.said(name, value) for name, value in values if np.isfinite(value) and not (given.rig.plane and name == "pressure")]
+    return f", at {', '.join(told)}" if told else ""
 
 
 def edge_of(run: Run) -> float:

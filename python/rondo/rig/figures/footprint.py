@@ -44,7 +44,7 @@ def _maps(given: Given) -> Iterator[Drawn]:
     for ax in axes[len(prints):]:
         ax.set_visible(False)
     yield Drawn("footprint", "footprint", "Pressure in the contact patch, seen from above, the wheel rolls to the right; "
-                f"arrows: shear by which the ground pushes the tread. Scales of colour differ.{missing.words}", figure)
+                f"arrows: shear by which the ground pushes the tread.{' Scales of colour differ.' if len(prints) > 1 else ''}{missing.words}", figure)
 
 
 def _shown(given: Given, found: Columns) -> list[int]:

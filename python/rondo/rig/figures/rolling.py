@@ -39,5 +39,5 @@ def _over(given: Given, along: str, by: str, factor: float, label: str) -> Itera
     legend(figure, given.airs(values) if by == "pressure" else [given.said(by, level) for level in values])
     at = f", at {given.said(rest, value)}" if np.isfinite(value) and not (given.rig.plane and rest == "pressure") else ""
     apart = by_air(values) if by == "pressure" else f", by {by}"
-    yield Drawn(TEST, f"{TEST}-{along}", f"Rolling resistance and its share of the load over the {along}{apart}{at}.",
+    yield Drawn(TEST, f"{TEST}-{along}", f"Rolling resistance and its coefficient, the resistance over the load, over the {along}{apart}{at}.",
                 figure)
