@@ -262,7 +262,7 @@ def _paper(options: argparse.Namespace) -> int:
 def _rig(options: argparse.Namespace) -> int:
     from rondo.rig.command import Request, defaults_text, plan, run_rig
 
-    tests = tuple(name.strip() for name in options.tests.split(",")) if options.tests else ()
+    tests = tuple(name.strip() for name in options.tests.split(",")) if options.tests is not None else ()
     request = Request(options.case, options.output or pathlib.Path(f"{options.case.stem}-rig"), options.rig, tests,
                       options.quick, options.jobs or 0, options.overwrite, options.quiet, options.against, options.fmu)
     if options.write_defaults or options.dry_run:

@@ -59,13 +59,13 @@ def rig(*arguments, code=0):
     return done
 
 
-def failing(folder, pattern):
-    """A program of which those commands fail that have the pattern, a regular expression, among their arguments."""
+def failing(folder, pattern, instead='echo "rondo: error: made to fail" >&2; exit 3'):
+    """A program of which those commands fail that have the pattern, a regular expression, among their arguments.
+    instead: what they do, as a shell has it"""
     program = folder / "failing-rondo"
     program.write_text(f"""#!/bin/bash
 if [[ "$*" =~ {pattern} ]]; then
-  echo "rondo: error: made to fail" >&2
-  exit 3
+  {instead}
 fi
 exec {PROGRAM} "$@"
 """)

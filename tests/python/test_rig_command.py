@@ -15,7 +15,7 @@ from rig_wheels import RIG, WHEEL, failing, files, rig
 
 import rondo
 from rondo import files as exchanged
-from rondo.rig.findings import find
+from rondo.rig.findings import doubt_of, find
 from rondo.rig.settings import read_settings, settings_text
 from rondo.rig.time_tests import cleat_ramp, road_profile
 
@@ -43,6 +43,8 @@ def test_all_tests_are_done(done):
     assert all((test.table["status"] == "done").all() for test in found.tests.values())
     for name in ("report.html", "tyre.tir", "lateral.tdx", "figures/vertical.png", "runs/vertical/study.toml"):
         assert (done / name).is_file(), name
+    page = (done / "report.html").read_text()
+    assert "deflection (m)" in page and "speeds: 12, 20 m/s; height: 0.006 m" in page
 
 
 def test_signs_and_trends(done):
@@ -127,8 +129,10 @@ def test_results_that_are_gone_are_made_again(done, tmp_path):
     assert "1 of 1  footprint-2000N" in again
 
 
-def test_interrupted(tmp_path):
+def test_interrupted(tmp_path, monkeypatch):
+    """In the middle of the test `lateral`, which takes long here."""
     case, settings = files(tmp_path)
+    monkeypatch.setenv("RONDO", failing(tmp_path, "runs/lateral", "exec sleep 60"))
     command = [sys.executable, "-m", "rondo", "rig", str(case), "--rig", str(settings), "--tests", "lateral,longitudinal", "-o",
                str(tmp_path / "rig"), "--jobs", "1"]
     running = subprocess.Popen(command, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
@@ -139,6 +143,7 @@ def test_interrupted(tmp_path):
     running.send_signal(signal.SIGINT)
     said = running.communicate()[1]
     assert running.returncode == 130 and "the same command goes on" in said
+    assert rondo.open_rig(tmp_path / "rig").tests["lateral"].info["status"] == "unfinished"
     assert all(test.info.get("failed", 0) == 0 for test in rondo.open_rig(tmp_path / "rig").tests.values())
 
 
@@ -221,6 +226,13 @@ def test_slopes_are_of_the_smallest_slips():
     assert find(None, "longitudinal", [*rows[:2], rows[2] | {"status": "failed"}, rows[3]]) == {}
 
 
+def test_a_swing_with_the_mesh_is_told():
+    row = {"status": "done", "load": 4000.0, "mean_Fz": 4010.0, "ripple_Fz": 100.0}
+    assert doubt_of("cleat", [row, {"status": "failed"}]) == ""
+    assert "swings by up to 8 % of the load" in doubt_of("road", [row, row | {"ripple_Fz": 330.0}])
+    assert "differs from it by up to 41 %" in doubt_of("cleat", [row | {"mean_Fz": 5625.0}])
+
+
 def test_a_step_that_slides_has_no_relaxation_length(tmp_path):
     case, settings = files(tmp_path, settings=f"{RIG}[relaxation]\nslip_ratio_step = 0.1\n")
     rig(case, "--rig", settings, "--quick", "--tests", "relaxation", "-o", tmp_path / "rig", code=3)
@@ -234,6 +246,14 @@ def test_a_point_that_fails_is_a_row(tmp_path):
     assert "vertical: 1 of 4 points failed" in said
     table = rondo.open_rig(tmp_path / "rig").tests["vertical"].table
     assert list(table["status"]) == ["done"] * 3 + ["failed"] and "load" in table["reason"][3]
+
+
+@pytest.mark.parametrize("text, words", [('{"sources": []}', '"sources" has to be an object'), ('{"tests": {"road": 1}}', "object of objects")])
+def test_a_damaged_record_is_refused(tmp_path, text, words):
+    case, _ = files(tmp_path)
+    (tmp_path / "rig").mkdir()
+    (tmp_path / "rig" / "rig.json").write_text(text)
+    assert words in rig(case, "-o", tmp_path / "rig", code=2).stderr
 
 
 def test_another_tyre_is_refused(done, tmp_path):

@@ -26,7 +26,7 @@ from .keys import TOP
 from .plane import NOTES, WITHOUT_WIDTH, fmu_note, left_out_of
 from .plane.damping import lowest_of, with_damping_below
 from .planning import cost_of, plan_text
-from .record import FORMAT, replace_text, write_channels, write_json, write_table
+from .record import FORMAT, read_record, replace_text, write_channels, write_json, write_table
 from .rows import DONE, FAILED, free_radius, rows_of_block
 from .settings import Settings, is_per_metre, read_settings, settings_text
 from .states import Found, Row, States, states_of
@@ -101,7 +101,7 @@ class Rig:
 
     def __init__(self, request: Request) -> None:
         if unknown := [name for name in request.tests if name not in TESTS]:
-            raise InputError(f"--tests: {', '.join(unknown)}: no such test (allowed: {', '.join(TESTS)})")
+            raise InputError(f"--tests: {', '.join(name or 'nothing' for name in unknown)}: no such test (allowed: {', '.join(TESTS)})")
         self.request, self.program = request, find_program()
         self.tyre: Tyre = read_tyre(request.case)
         demand_right(self.program, request.case)
@@ -139,7 +139,7 @@ class Rig:
         if not path.exists():
             return
         try:
-            known = read_json(path)
+            known = read_record(path)
         except Error:
             if not self.request.overwrite:
                 raise

@@ -12,12 +12,15 @@ from .tests_table import TESTS
 
 # Seconds of a block beside its points, and of a point, in those of a point of the reference.
 SETUP, STEADY, STEP, IN_TIME, MODES = 12.0, 3.0, 90.0, 80.0, 60.0
+PER_SECOND = 50.0  # beside IN_TIME: of a second in which the wheel rolls; measured 20 to 110
 PAGES = 35.0  # s, of fit, figures and report
 
 
 def cost_of(block: Block, point_s: float) -> float:
     """s, about. point_s: of a point of the reference; 0: not known, taken as 1 s."""
     each = {"cleat": IN_TIME, "road": IN_TIME, "relaxation": STEP, "modes": MODES}.get(block.test, STEADY)
+    if block.test in ("cleat", "road"):
+        each += PER_SECOND * block.case["time"]["end"]
     return (SETUP + each * len(block.points)) * (point_s or 1.0)
 
 

@@ -12,7 +12,8 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..data.errors import FileError
+from ..data.errors import Error, FileError
+from ..data.files import read_json
 from ..data.tydex import write_tydex
 from ..files import tydex
 from .blocks import Bench
@@ -40,6 +41,17 @@ def replace_text(path: pathlib.Path, text: str) -> None:
 
 def write_json(path: pathlib.Path, document: Mapping[str, Any]) -> None:
     replace_text(path, json.dumps(_plain(document), indent=2, ensure_ascii=False) + "\n")
+
+
+def read_record(path: pathlib.Path) -> dict[str, Any]:
+    """rig.json of another time. @raise Error: it is damaged."""
+    known = read_json(path)
+    for name in ("sources", "tests", "fmu"):
+        if not isinstance(known.get(name, {}), dict):
+            raise Error(f'{path}: damaged: "{name}" has to be an object (allowed: --overwrite, which writes it anew)')
+    if not all(isinstance(one, dict) for one in known.get("tests", {}).values()):
+        raise Error(f'{path}: damaged: "tests" has to be an object of objects (allowed: --overwrite, which writes it anew)')
+    return known
 
 
 def write_table(directory: pathlib.Path, test: str, rows: Sequence[Row], bench: Bench) -> str:

@@ -22,7 +22,7 @@ HIGHEST = 250.0  # Hz: what reaches the axle of a car through its tyre, and is f
 BEFORE = 0.5     # radii ahead of the cleat or the road: where the courses begin, as the peaks of the tables do
 TESTS = {"cleat": "Forces of the ground on the wheel over a cleat{size}, and the amplitudes of their spectra, by speed{state}",
          "road": "Forces of the ground on the wheel on a rough road{size}, and their power spectral densities, by speed{state}"}
-BEGINS = {"cleat": "edge of the cleat", "road": "begin of the road"}
+BEGINS = {"cleat": "edge of the cleat", "road": "start of the road"}
 
 
 def draw(given: Given) -> Iterator[Drawn]:
@@ -53,7 +53,7 @@ def _courses(given: Given, test: str, words: str) -> Iterator[Drawn]:
                 continue
             felt = (frequency > 0) & (frequency <= HIGHEST)
             curve(below, k, frequency[felt], (width ** 2 if test == "road" else width) * height[felt], marked=False)
-        ax.set(xlabel=f"distance of the center from the {BEGINS[test]} (m)", ylabel=f"{label} {symbol} (k{unit})")
+        ax.set(xlabel=f"distance from the {BEGINS[test]} (m)", ylabel=f"{label} {symbol} (k{unit})")
         below.set(xlabel="frequency (Hz)",
                   ylabel=f"density of {symbol} ({density})" if test == "road" else f"amplitude of {symbol} ({unit})",
                   xlim=(0, None))
