@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rondo/rom/solid/solid_ring.hpp"
-#include "rondo/rom/wheel/wheel_model.hpp"
+#include "rondo/rom/wheel/base/wheel_model.hpp"
 #include "rondo/rom/wheel/whole_mesh.hpp"
 
 namespace rondo::rom {

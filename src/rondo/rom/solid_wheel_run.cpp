@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "rondo/core/contract.hpp"
-#include "rondo/rom/wheel/ring_candidates.hpp"
+#include "rondo/rom/wheel/base/ring_candidates.hpp"
 
 namespace rondo::rom {
 namespace {

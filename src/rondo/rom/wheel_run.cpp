@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rondo/rom/wheel/ring_candidates.hpp"
+#include "rondo/rom/wheel/base/ring_candidates.hpp"
 
 namespace rondo::rom {
 namespace {

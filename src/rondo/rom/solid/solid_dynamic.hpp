@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "rondo/rom/solid/solid_ring.hpp"
-#include "rondo/rom/wheel/ring_rows.hpp"
+#include "rondo/rom/wheel/base/ring_rows.hpp"
 
 namespace rondo::rom {
 

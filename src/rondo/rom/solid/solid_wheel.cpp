@@ -6,7 +6,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
-#include "rondo/rom/wheel/ring_candidates.hpp"
+#include "rondo/rom/wheel/base/ring_candidates.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {

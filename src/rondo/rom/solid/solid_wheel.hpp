@@ -16,7 +16,7 @@
 #include "rondo/rom/solid/harmonic_creep.hpp"
 #include "rondo/rom/solid/solid_residual.hpp"
 #include "rondo/rom/solid/wheel_attitude.hpp"
-#include "rondo/rom/wheel/reduced_wheel.hpp"
+#include "rondo/rom/wheel/base/reduced_wheel.hpp"
 
 namespace rondo::rom {
 

@@ -7,8 +7,8 @@
 
 #include "rondo/core/sum.hpp"
 #include "rondo/model/material_report.hpp"
-#include "rondo/rom/wheel/wheel_model.hpp"
-#include "rondo/rom/wheel/wheel_outcome.hpp"
+#include "rondo/rom/wheel/base/wheel_model.hpp"
+#include "rondo/rom/wheel/base/wheel_outcome.hpp"
 
 namespace rondo::rom {
 

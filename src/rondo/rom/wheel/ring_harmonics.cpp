@@ -11,8 +11,8 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/dense.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/rom/wheel/base/ring_rows.hpp"
 #include "rondo/rom/wheel/creep/creep_pair.hpp"
-#include "rondo/rom/wheel/ring_rows.hpp"
 #include "rondo/rom/wheel/ring_waves.hpp"
 
 namespace rondo::rom {

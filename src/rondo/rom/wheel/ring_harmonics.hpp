@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
+#include "rondo/rom/wheel/base/ring.hpp"
 #include "rondo/rom/wheel/creep/creep.hpp"
-#include "rondo/rom/wheel/ring.hpp"
 
 namespace rondo::rom {
 

@@ -11,10 +11,10 @@
 #include "rondo/contact/coupled/block.hpp"
 #include "rondo/contact/ground.hpp"
 #include "rondo/core/vec2.hpp"
+#include "rondo/rom/wheel/base/reduced_wheel.hpp"
 #include "rondo/rom/wheel/creep_field.hpp"
 #include "rondo/rom/wheel/gap_law.hpp"
 #include "rondo/rom/wheel/left_behind.hpp"
-#include "rondo/rom/wheel/reduced_wheel.hpp"
 #include "rondo/rom/wheel/sliding_memory.hpp"
 
 namespace rondo::rom {

@@ -8,7 +8,7 @@
 #include <span>
 
 #include "rondo/fem/rubber.hpp"
-#include "rondo/rom/wheel/wheel_outcome.hpp"
+#include "rondo/rom/wheel/base/wheel_outcome.hpp"
 
 namespace rondo::rom {
 

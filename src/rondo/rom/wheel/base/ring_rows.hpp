@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "rondo/core/index.hpp"
-#include "rondo/rom/wheel/ring.hpp"
+#include "rondo/rom/wheel/base/ring.hpp"
 
 namespace rondo::rom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/rom/wheel/ring.hpp"
+#include "rondo/rom/wheel/base/ring.hpp"
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"

@@ -6,7 +6,7 @@
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
 #include "rondo/model/model.hpp"
-#include "rondo/rom/wheel/ring.hpp"
+#include "rondo/rom/wheel/base/ring.hpp"
 
 namespace rondo::rom {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-/// @file  What reduced wheels in the plane (ring_wheel.hpp, D = 2) and in three dimensions
-/// (../solid/solid_wheel.hpp, D = 3) do in the same way (docs/reduced.md): the steps of the modes,
-/// their ledger, fields and saved numbers, and what contact nodes remember. Vectors of a node have
-/// D components.
+/// @file  What reduced wheels in the plane (../ring_wheel.hpp, D = 2) and in three dimensions
+/// (../../solid/solid_wheel.hpp, D = 3) do in the same way (docs/reduced.md): the steps of the
+/// modes, their ledger, fields and saved numbers, and what contact nodes remember. Vectors of a
+/// node have D components.
 #pragma once
 #include <Eigen/LU>
 #include <array>
@@ -10,11 +10,11 @@
 #include <span>
 #include <vector>
 
+#include "rondo/rom/wheel/base/wheel_model.hpp"
 #include "rondo/rom/wheel/creep/branch_strains.hpp"
 #include "rondo/rom/wheel/creep/creep_memory.hpp"
 #include "rondo/rom/wheel/landing.hpp"
 #include "rondo/rom/wheel/saved_numbers.hpp"
-#include "rondo/rom/wheel/wheel_model.hpp"
 #include "rondo/rom/wheel/wheel_rim.hpp"
 
 namespace rondo::rom {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "rondo/rom/wheel/reduced_wheel.hpp"
+#include "rondo/rom/wheel/base/reduced_wheel.hpp"
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
