@@ -33,8 +33,10 @@ class Traction(ProgramTest):
         np.testing.assert_allclose(t["force_y_mean"], 1.9e5, rtol=1.5e-4)  # the load
         print("\n| μ | slip of free rolling | slope | 2R/a | traction at −6 %, +6 % | largest distance "
               "from Carter |\n|---|---|---|---|---|---|")
-        for friction, slope_within, curve_within in ((0.1, 0.26, 0.26), (0.2, 0.06, 0.12),
-                                                     (0.4, 0.02, 0.10), (0.6, 0.02, 0.07)):
+        # The length is that of the deformed boundary, 1.6 % less than at first: the slopes, which did not change, are
+        # 26.2, 6.4, 1.0 and 0.1 % off Carter's by it (25.0, 5.0, 0.5 and 1.4 % by the undeformed one).
+        for friction, slope_within, curve_within in ((0.1, 0.27, 0.26), (0.2, 0.07, 0.12),
+                                                     (0.4, 0.02, 0.09), (0.6, 0.01, 0.06)):
             of = t["ground.friction"] == friction
             slip = t["slip_ratio_mean"][of]
             share = t["force_x_mean"][of] / t["force_y_mean"][of]  # F/N
