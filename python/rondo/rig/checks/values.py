@@ -30,7 +30,7 @@ def demand_bearable(bench: Bench, given: Settings, rig: pathlib.Path | None, def
     own, apart = bench.settings["cleat"], node_distance(bench)
     ramp = cleat_ramp(own["height"], own["length"], apart)
     if ramp > bench.radius:
-        raise InputError(f"{rig}: cleat: height = {own['height']:g} and length = {own['length']:g}: nodes of the tread are {1e3 * apart:.3g} mm "
+        raise InputError(f"{rig or bench.tyre.path}: cleat: height = {own['height']:g} and length = {own['length']:g}: nodes of the tread are {1e3 * apart:.3g} mm "
                          f"apart, and edges that they feel make ramps of {ramp:.3g} m, longer than the radius of the wheel (allowed: a longer "
                          "top, a lower cleat, more sectors)")
 
