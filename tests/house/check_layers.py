@@ -79,7 +79,7 @@ ALLOWED["mesh_reader"] = {"mesh"}  # a program of its own; it shares the layout 
 # Libraries that only these modules may see.
 ONLY_IN = {"hdf5.h": {"io/h5"}, "toml++/": {"case"}, "CLI/": {"apps"}, "cholmod": {"statics"},
            "CholmodSupport": {"modal", "statics"}, "Spectra/": {"model/stability"},
-           "lapacke": {"pod", "rom/wheel", "statics/steady"}, "xxhash": {"io/h5"},
+           "lapacke": {"core", "pod", "statics/steady"}, "xxhash": {"io/h5"},
            "fftw3": {"pod", "statics/steady"},
            "gmsh.h": {"mesh_reader"}, "mpi.h": {"apps"}}
 
