@@ -276,7 +276,7 @@ class Steep(RunTest):
                                self.of_contact()["friction_steepness_limit"])
             self.assertIn(warning.removeprefix("rondo: warning: "), summary(self.out)["warnings"])
             wrong = self.force()
-            bearable = float(re.search(r"time.step of at most (\S+) s", warning)[1])
+            bearable = float(re.search(r"time.step of (\S+) s", warning)[1])
             self.assertEqual(self.warned(f"time.step={bearable}", text=text), [])
             self.assertLess(self.of_contact()["friction_alternating"], 1e-3)
             right = self.force()
@@ -308,12 +308,19 @@ class Steep(RunTest):
             done = run("check", self.case(SMALL), *settings(f"ground.friction={{coefficient = 0.4, slip_speed = {table}}}",
                                                             *given))
             self.assertEqual(done.returncode, 0, done.stderr)
-            return "rises with the slip by up to" in done.stdout, "from next to nothing so steeply" in done.stderr
+            return "rises with the slip by up to" in done.stdout, "a tenth of its largest value at rest" in done.stderr
         self.assertEqual(checked([[0, 0], [0.1, 1]]), (True, True))
         self.assertEqual(checked([[0, 0], [5, 1]]), (True, False))
         self.assertEqual(checked([[0, 0.5], [0.1, 1]]), (True, False))  # what sticks may do so for good
         self.assertEqual(checked([[0, 1], [0.5, 0.7]]), (False, False))
         self.assertEqual(checked([[0, 0], [0.1, 1]], "time.step=1e-6"), (True, False))
+        self.assertEqual(checked([[0, 0.9], [0.02, 1]], "ground.patch=[{from = -1, to = 0.5, factor = 0.05}]"), (True, False))
+        self.assertEqual(checked([[0, 0], [0.1, 1]], "solver.contact_mass=singular"), (False, True))
+
+    def test_without_rows_in_contact_nothing_is_said(self):
+        self.assertEqual(self.warned("output.history_interval=1"), [])
+        self.assertNotIn("friction_alternating", self.of_contact())
+        self.assertNotIn("friction_steepness_max", self.of_contact())
 
     def test_it_resumes_to_the_same_figures(self):
         self.warned()

@@ -233,6 +233,8 @@ class Refused(ProgramTest):
     def test_what_does_not_converge_ends_the_run(self):
         self.refuse(["did not converge", "2000 iterations", "analysis.search_direction", "direct"],
                     "analysis.search_direction=1e12", "analysis.tolerance=1e-9", code=3)
+        self.refuse(["out of the range of floating-point numbers"], "analysis.search_direction=1e100", code=3,
+                    extra=("--overwrite",))
 
 
 if __name__ == "__main__":

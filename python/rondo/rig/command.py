@@ -103,8 +103,8 @@ class Rig:
         if unknown := [name for name in request.tests if name not in TESTS]:
             raise InputError(f"--tests: {', '.join(name or 'nothing' for name in unknown)}: no such test (allowed: {', '.join(TESTS)})")
         self.request, self.program = request, find_program()
-        self.tyre: Tyre = read_tyre(request.case)
         demand_right(self.program, request.case)
+        self.tyre: Tyre = read_tyre(request.case)
         self.given: Settings = read_settings(request.rig, self.tyre.wheels)
         self.left_out: Mapping[str, str] = left_out_of(self.tyre.case) if self.tyre.is_plane else {}  # tests that the wheel cannot do, and why
         for name in request.tests:
@@ -196,7 +196,7 @@ class Rig:
         self.disk = int(sum(path.stat().st_size for path in (self.runs / block.name / RESULTS).iterdir()))
         settings = with_defaults(self.tyre, self.given, self.request.quick, radius)
         self.bench = Bench(self.tyre, settings, self.bench.mesh, radius)
-        demand_bearable(self.bench, self.given, self.request.rig, radius - float(info["steady"]["height"]))
+        demand_bearable(self.bench, self.given, self.request.rig, radius - float(info["steady"]["height"]), self.wanted())
         if self.tyre.is_plane and "relaxation" in self.wanted() and "relaxation" not in self.left_out:
             self._prepare_time_steps(stop)
 

@@ -69,8 +69,8 @@ def _tir(rig: Rig) -> pathlib.Path | None:
         return None
     for channel in ("Fx", "Fy", "Mz"):
         if channel in residuals and residuals[channel]["of_largest"] > ROUGH:
-            print(f"rondo: warning: tyre.tir: {channel} is met to {100.0 * residuals[channel]['of_largest']:.0f} % of its largest "
-                  "only; its first lines say why: more slips, slip angles and loads", file=sys.stderr)
+            print(f"rondo: warning: tyre.tir: {channel} differs from the points by {100.0 * residuals[channel]['of_largest']:.0f} % "
+                  "(rms) of its largest; the first lines of the file say why (try more slips, slip angles and loads)", file=sys.stderr)
     return path
 
 

@@ -139,7 +139,10 @@ def _relaxation(bench: Bench, p: Point, info: Mapping[str, Any], where: str) -> 
     name = FORCE_OF[p.extra["step"]]
     found = info["slip_step"][name]
     row = {**_asked(p), "run": where, "status": DONE, "reason": ""}
-    _demand_small_step(bench, p, abs(float(found["after"]) - float(found["before"])), name)
+    try:
+        _demand_small_step(bench, p, abs(float(found["after"]) - float(found["before"])), name)
+    except Error as reason:
+        return row | {"status": FAILED, "reason": str(reason)}
     if found["relaxation_length"] is None:
         return row | {"status": FAILED, "reason": f"{name} reaches {100.0 * found['share']:.0f} % of its change: roll farther "
                       "(relaxation.distance)"}

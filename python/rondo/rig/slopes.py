@@ -33,25 +33,26 @@ def load_deflection(rig: Rig) -> dict[float, Columns]:
 def cornering(rig: Rig) -> Columns:
     """By load and pressure of the upright wheel: stiffness -dF_y/dalpha > 0 in N/rad and trail -dM_z/dF_y in m: the
     figures of merit in rig.json, or the straight lines through the points of small slip angles."""
-    return _merits(rig, "lateral", "cornering_stiffness", "pneumatic_trail") or \
-        _slopes(rig, "lateral", "slip_angle", SMALL_ANGLE)
+    found = _merits(rig, "lateral", "cornering_stiffness", "pneumatic_trail")
+    return _slopes(rig, "lateral", "slip_angle", SMALL_ANGLE) if found is None else found
 
 
 def slip_stiffness(rig: Rig) -> Columns:
     """By load and pressure of the upright wheel: stiffness dF_x/dkappa in N, in the same way."""
-    return _merits(rig, "longitudinal", "slip_stiffness") or _slopes(rig, "longitudinal", "slip_ratio", SMALL_SLIP)
+    found = _merits(rig, "longitudinal", "slip_stiffness")
+    return _slopes(rig, "longitudinal", "slip_ratio", SMALL_SLIP) if found is None else found
 
 
 def _merits(rig: Rig, test: str, stiffness: str, trail: str = "") -> Columns | None:
     """None: rig.json does not have this figure of merit."""
     found = rig.figures.get(test, {})
     rows = found.get(stiffness)
-    if not rows:
+    if rows is None:
         return None
     trails = {(one["load"], one["pressure"]): one["value"] for one in found.get(trail, [])}
     values = [(one["load"], one["pressure"] or 0.0, abs(one["value"]), trails.get((one["load"], one["pressure"]), np.nan))
               for one in rows if one["value"] is not None]
-    return dict(zip(NAMES, np.array(values, dtype=float).T))
+    return dict(zip(NAMES, np.array(values, dtype=float).reshape(-1, len(NAMES)).T))
 
 
 def _slopes(rig: Rig, test: str, along: str, small: float) -> Columns:

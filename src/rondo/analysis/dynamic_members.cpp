@@ -109,6 +109,11 @@ constexpr JsonMember<RunReport> time_members[] = {
 };
 
 using E = DynamicEnd;
+/// Whether friction is watched and a row has had some.
+bool has_friction(const E& e) {
+  return e.friction.watches() && e.contact.friction_bearable > 0.0;
+}
+
 constexpr JsonMember<E> contact_members[] = {
     {"steps_in_contact", "integer", "", "Steps with contact",
      [](const E& e) -> Json { return e.contact.contact_steps; }},
@@ -142,19 +147,20 @@ constexpr JsonMember<E> contact_members[] = {
     {"between_bodies_max", "integer", "", "Most nodes pressed against bodies at once",
      [](const E& e) -> Json { return e.contact.between_bodies; }},
     {"friction_steepness_max", "number", "",
-     "Only where friction is a table and contact nodes have mass: largest κ of a contact at the "
-     "rows of `history.csv`, the slope of its coefficient over the slip speed times its normal "
-     "impulse over the mass of its node ([theory.md](theory.md), 4.3e)",
-     [](const E& e) { return e.friction.limit() ? Json(e.contact.friction_steepness) : absent(); }},
+     "Only where friction is a table, contact nodes have mass and a row of `history.csv` has "
+     "contact: largest κ of a contact at these rows, the slope of its coefficient over the slip "
+     "speed times its normal impulse over the mass of its node ([theory.md](theory.md), 4.3e)",
+     [](const E& e) {
+       return e.friction.limit() && has_friction(e) ? Json(e.contact.friction_steepness) : absent();
+     }},
     {"friction_steepness_limit", "number", "",
-     "Likewise: κ below which slips and coefficients do not alternate from step to step",
+     "Where friction is a table and contact nodes have mass: κ below which slips and coefficients "
+     "do not alternate from step to step",
      [](const E& e) { return e.friction.limit() ? Json(*e.friction.limit()) : absent(); }},
     {"friction_alternating", "number", "",
-     "Only where friction is a table: share of the friction that alternates, by the rows of "
-     "`history.csv`; a warning above 0.01",
-     [](const E& e) {
-       return e.friction.watches() ? Json(alternating_share(e.contact)) : absent();
-     }},
+     "Only where friction is a table and a row of `history.csv` has contact: share of the friction "
+     "that alternates, by these rows; a warning above 0.01",
+     [](const E& e) { return has_friction(e) ? Json(alternating_share(e.contact)) : absent(); }},
     {"problems_kept", "integer", "", "Files in `contact-problems/`",
      [](const E& e) -> Json { return e.problems_kept; }},
 };

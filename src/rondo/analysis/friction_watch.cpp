@@ -85,17 +85,20 @@ std::string FrictionWatch::warning(const ContactStatistics& found) const {
   const double share = alternating_share(found);
   if (share <= alternating_bound) return {};
   const std::string told = fmt::format(
-      "ground.friction: {:.3g} % of the friction alternates from step to step, and its mean is "
-      "wrong by up to as much: it rises so steeply with the slip that contact nodes slide and "
-      "stick in turn, because a step takes the coefficient by the slip of the step before; ",
+      "ground.friction: {:.3g} % of the friction alternates from step to step: it is too small for "
+      "the slip (under a given torque the slip is too large), by up to this share. Friction rises "
+      "so steeply with the slip that contact nodes slide and stick in turn, because a step takes "
+      "the coefficient by the slip of the step before: ",
       100.0 * share);
   if (!has_mass_)
     return told +
            "contact nodes without mass do so at any step: take solver.contact_mass = \"lumped\", "
            "and a time.step for which this warning is not given";
   const double rate = found.friction_steepness / setup_.model.dt;
-  return told + fmt::format("a time.step of at most {:.2g} s is short enough",
-                            friction_step_of(setup_, rate));
+  const double step = friction_step_of(setup_, rate);
+  return told +
+         fmt::format("take a time.step of {:.2g} s; it is short enough where this warning is gone",
+                     step);
 }
 
 }  // namespace rondo::study

@@ -276,7 +276,7 @@ struct Case {
   Output output;
   std::vector<std::string> warnings;  ///< found while reading; the caller prints them
 
-  // Compiled once: 10 kB of code in every other file.
+  // These are compiled once; each would take 10 kB in every file that copies a case.
   Case();
   ~Case();
   Case(const Case&);

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "rondo/core/contract.hpp"
+#include "rondo/core/process_wide.hpp"
 
 namespace rondo {
 namespace {
@@ -71,6 +72,7 @@ Svd thin_svd(MatrixXd& a) {
     out.v.resize(a.cols(), 0);
     return out;
   }
+  const OneBlasThread one_thread;
   MatrixXd vt(k, a.cols());
   const int rows = lapack_length(a.rows()), columns = lapack_length(a.cols());
   const int info =

@@ -19,8 +19,7 @@ std::string in_the_ground(double above, double rim) {
 class PlaneWheel final : public LedWheel {
  public:
   PlaneWheel(const study::Setup& setup, study::PreparedWheel& wheel, const dynamics::State& start)
-      : LedWheel(setup.model, run_),
-        run_(setup.model, *wheel.ring, wheel.model, wheel.figures, start) {}
+      : LedWheel(setup.model), run_(setup.model, *wheel.ring, wheel.model, wheel.figures, start) {}
 
   void begin(const rom::HubVelocity& from) override {
     sums_ = {};
@@ -61,6 +60,9 @@ class PlaneWheel final : public LedWheel {
   }
 
  private:
+  [[nodiscard]] rom::ReducedRun& run() noexcept override { return run_; }
+  [[nodiscard]] const rom::ReducedRun& run() const noexcept override { return run_; }
+
   /// What the steps since the last communication point have added up.
   struct Sums {
     Vec2 held, contact;  ///< forces [N/m]
@@ -76,7 +78,7 @@ class SpaceWheel final : public LedWheel {
  public:
   SpaceWheel(const study::Setup& setup, study::PreparedWheel& wheel, const dynamics::State& start,
              const rom::HubStart& hub)
-      : LedWheel(setup.model, run_),
+      : LedWheel(setup.model),
         run_(setup.model, *wheel.solid, wheel.model, wheel.law_residual, wheel.figures, start,
              hub) {}
 
@@ -134,6 +136,9 @@ class SpaceWheel final : public LedWheel {
   }
 
  private:
+  [[nodiscard]] rom::ReducedRun& run() noexcept override { return run_; }
+  [[nodiscard]] const rom::ReducedRun& run() const noexcept override { return run_; }
+
   /// What the steps since the last communication point have added up. Components are along the
   /// heading, out of the ground, and to the right.
   struct Sums {

@@ -35,22 +35,23 @@ class LedWheel {
   /// What is wrong with where the hub is, in words; empty: nothing. @param rim its radius [m]
   [[nodiscard]] virtual std::string misplaced(double rim) const = 0;
 
-  [[nodiscard]] dynamics::SavedState save() const { return run_.save(); }
-  void restore(const dynamics::SavedState& saved) { run_.restore(saved); }
+  [[nodiscard]] dynamics::SavedState save() const { return run().save(); }
+  void restore(const dynamics::SavedState& saved) { run().restore(saved); }
 
  protected:
-  /// Both must outlive it. @param run of the class that is derived
-  LedWheel(const dynamics::Model& model, rom::ReducedRun& run) noexcept
-      : model_(model), run_(run) {}
+  /// @param model must outlive it
+  explicit LedWheel(const dynamics::Model& model) noexcept : model_(model) {}
 
-  void make_step() { run_.advance(report_); }
+  /// What makes its steps.
+  [[nodiscard]] virtual rom::ReducedRun& run() noexcept = 0;
+  [[nodiscard]] virtual const rom::ReducedRun& run() const noexcept = 0;
+  void make_step() { run().advance(report_); }
   [[nodiscard]] const dynamics::StepReport& last() const noexcept { return report_[0]; }
-  [[nodiscard]] const rom::WheelRim& rim() const noexcept { return *run_.rim(); }
+  [[nodiscard]] const rom::WheelRim& rim() const noexcept { return *run().rim(); }
 
   const dynamics::Model& model_;
 
  private:
-  rom::ReducedRun& run_;
   std::array<dynamics::StepReport, 1> report_;
 };
 

@@ -38,12 +38,13 @@ TEST(FrictionStep, IsTwoInSmallStepsAndNothingAtTheCriticalOne) {
   EXPECT_DOUBLE_EQ(friction_limit({0.0, 0.0}, 1.0), 2.0);  // all elements are implicit
   EXPECT_NEAR(friction_limit({5e4, 0.0}, 2.0 / 5e4), 0.0, 1e-14);
   EXPECT_EQ(friction_limit({5e4, 1e-5}, 2.0 / 5e4), 0.0);
+  EXPECT_NEAR(friction_limit({0.0, 0.0, 3000.0}, 1e-4), 2.0 - 0.3, 1e-14);  // mass damping lags
 }
 
 TEST(FrictionStep, TheStepIsThatAtWhichTheRateMeetsTheLimit) {
   for (const double beta : {0.0, 2e-5})
     for (const double rate : {1.0, 2.6e5, 1e8}) {
-      const ElementLimit of{5e4, beta};
+      const ElementLimit of{5e4, beta, 1e3 * beta / 2e-5};
       const double step = friction_step(of, rate);
       EXPECT_NEAR(rate * step, friction_limit(of, step), 1e-12) << beta << " " << rate;
     }

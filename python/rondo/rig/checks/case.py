@@ -11,12 +11,15 @@ from typing import Any
 from ...data.errors import Error, InputError
 from ...studies.program import Program
 
-RIGS_OWN = ("motion.", "rim.", "ground.profile", "analysis.", "time.")  # keys from which the rig takes no more than defaults
+UNUSED = ("time", "ground.profile", "ground.road", "ground.obstacle", "ground.fillet")  # the rig has its own
+RIGS_OWN = ("motion", "rim", "analysis")  # the rig has values of its own where these are missing
+GROUND = "ground"  # a rig file may give all that the rig takes from it
 WRONG = 2  # exit code of the program: wrong input
 
 
 def demand_right(program: Program, path: pathlib.Path) -> None:
-    """Missing keys for which the rig has values of its own are no mistake here: the case need not be one that runs by itself.
+    """Mistakes in what the rig does not use, and missing keys for which it has values of its own, do not count: the case need not be
+    one that runs by itself.
     @raise InputError: with all mistakes."""
     found = _checked(program, path)
     if found.get("exit_code") == 0:
@@ -42,4 +45,8 @@ def _checked(program: Program, path: pathlib.Path) -> dict[str, Any]:
 
 
 def _is_of_the_rig(fault: Mapping[str, Any]) -> bool:
-    return str(fault.get("key", "")).startswith(RIGS_OWN) and str(fault.get("message", "")).startswith("is missing")
+    key, message = str(fault.get("key", "")), str(fault.get("message", ""))
+    if key.startswith(UNUSED) and not message.startswith("unknown"):
+        return True
+    whole = message.startswith("the table is missing")
+    return (whole and key == GROUND) or ((whole or message.startswith("is missing")) and key.startswith(RIGS_OWN))

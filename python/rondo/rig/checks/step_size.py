@@ -26,7 +26,10 @@ def friction_of(case: Mapping[str, Any], slip_speed: float) -> float:
 def demand_small(change: float, carried: float, step: str, force: str, key: str) -> None:
     """`change`: of the force by the step; `carried`: what friction carries; `step`: in words, with its size; `key`: of the rig file.
     @raise Error: the step is too large."""
+    if carried == 0.0:
+        raise Error("friction vanishes at rest (slip speed 0 of ground.friction): the contact slides in any step, and there is no relaxation length "
+                    "of a contact that does not slide")
     if not change <= CARRIED * carried:
-        raise Error(f"the step of the {step}, changes {force} by {100.0 * change / carried if carried else np.inf:.0f} % of what friction "
+        raise Error(f"the step of the {step}, changes {force} by {100.0 * change / carried:.0f} % of what friction "
                     "carries, and the contact slides, which makes the relaxation length shorter (allowed: up to "
                     f"{100.0 * CARRIED:.0f} %): make the step smaller (relaxation.{key})")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import pathlib
+from collections.abc import Collection
 
 from ...data.errors import InputError
 from ..blocks import Bench
+from ..keys import TOP
 from ..settings import Settings
 from ..time_tests import cleat_ramp, node_distance
 from ..units import of_width
@@ -15,18 +17,21 @@ from ..units import of_width
 LEAST_POWER = 0.4
 
 
-def demand_bearable(bench: Bench, given: Settings, rig: pathlib.Path | None, deflection: float) -> None:
+def demand_bearable(bench: Bench, given: Settings, rig: pathlib.Path | None, deflection: float, tests: Collection[str]) -> None:
     """`given`: what the rig file `rig` says; defaults that fail are rows that failed. `deflection`: under the nominal load [m].
+    `tests`: those that are done.
     @raise InputError: loads that press the wheel onto its rim even by a low estimate; a cleat that is a hill on this mesh."""
     nominal, wall = bench.top["load"], _wall(bench)
     if deflection > 0.0:
         most = nominal * (wall / deflection) ** (1.0 / LEAST_POWER)
-        beyond = sorted({load for values in given.values() for load in values.get("loads", []) if load > most})
+        beyond = sorted({load for name, values in given.items() if name in (TOP, *tests) for load in values.get("loads", []) if load > most})
         if beyond:
             unit = of_width("N", bench.per_metre)
             raise InputError(f"{rig}: loads: {', '.join(f'{load:g}' for load in beyond)} {unit}: the wheel comes down by {1e3 * deflection:.3g} mm "
                              f"under its nominal load of {nominal:g} {unit}, and these would press it by all of the {1e3 * wall:.3g} mm that it "
                              f"has (allowed: at most {most:.2g} {unit}, and points that come near the rim fail)")
+    if "cleat" not in tests:
+        return
     own, apart = bench.settings["cleat"], node_distance(bench)
     ramp = cleat_ramp(own["height"], own["length"], apart)
     if ramp > bench.radius:

@@ -9,6 +9,7 @@ namespace rondo::dynamics {
 struct ElementLimit {
   double omega = 0.0;              ///< ω_m, at least the largest frequency             [rad/s]
   double stiffness_damping = 0.0;  ///< β                                               [s]
+  double mass_damping = 0.0;       ///< α, if it acts at the old half step            [1/s]
 };
 
 /// Bound of κ = (∂μ/∂|w_t|) r_n/m of a contact node of mass m, with its normal impulse r_n in the

@@ -24,7 +24,7 @@ MatrixXcd in_plane(MatrixXcd u) {
   return u;
 }
 
-/// As make_harmonic() of a ring in the plane. Both sum over the rows in an order of their own.
+/// It is make_harmonic() of a ring in the plane, which sums over the rows in another order.
 RingHarmonic make_harmonic(const SolidRing& ring, int k, VectorXd squares, MatrixXcd shapes) {
   RingHarmonic h;
   const VectorXd mass = masses(ring);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <utility>
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/dense.hpp"

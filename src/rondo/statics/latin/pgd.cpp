@@ -148,7 +148,9 @@ void Pgd::enrich(const MatrixXd& load, double indicator) {
   }
 }
 
+/// Nothing goes where the iterations have left the range of numbers, which the solver then tells.
 void Pgd::downsize(double indicator) {
+  if (!temporal_.allFinite()) return;
   const Svd svd = thin_svd(temporal_);
   const VectorXd& sigma = svd.sigma;
   Index kept = 0;
