@@ -284,7 +284,7 @@ def test_lengths_of_a_step():
     ({"friction": 0.2}, "50 % of what friction carries, and the contact slides"),
     ({"friction": {"coefficient": 0.8, "slip_speed": [[0.0, 1.0], [0.05, 0.25]]}}, "make the step smaller"),
     ({"friction": {"coefficient": 0.8, "slip_speed": [[0.0, 0.2], [0.2, 1.0]]}}, "62 % of what friction"),
-    ({"friction": 0.0}, "of what friction carries"),
+    ({"friction": 0.0}, "friction vanishes at rest"),
     ({"wave": 1.0}, "does not follow the step exponentially")])
 def test_steps_that_tell_no_length(change, words):
     assert slip_step.slip_step_of(of_history(0.15, friction=0.26)).fitted == pytest.approx(0.15, rel=0.01)
