@@ -113,7 +113,7 @@ void SolidWheelRun::turn_hub(SolidMotion& motion) {
 /// goes to its new value in the step; what holds it does the work of force and inertia.
 void SolidWheelRun::step_on_rim(dynamics::Works& works) {
   const double dt = model_.dt, before = lateral_;
-  const double theta = SolidWheelSettings{}.theta;
+  const double theta = StepSettings().theta;
   SolidMotion motion = in_space({}, n_);
   turn_hub(motion);
   Vec3 aim{0.0, 0.0, lateral_rate(static_cast<double>(n_) * dt)};
