@@ -11,6 +11,7 @@ import rigs
 import rondo
 from rondo.data.tir import write_tir
 from rondo.rig import against, figures
+from rondo.rig.trends import trends
 
 SETTINGS = {"friction": 1.0, "load": rigs.LOAD, "pressure": rigs.PRESSURE}
 
@@ -51,6 +52,18 @@ def test_each_test_has_its_figures(drawn):
             "lateral-pressure", "longitudinal-load", "combined-4kN", "rolling-resistance-speed", "rolling-resistance-load",
             "relaxation", "relaxation-length", "cleat", "road", "modes"} <= set(drawn)
     assert not any("not drawn" in one.words or "$" in one.words for one in drawn.values())
+
+
+def test_stiffnesses_that_the_rig_does_not_know_are_not_drawn_by_larger_slips(tmp_path):
+    tests = {name: rigs.all_tests()[name] for name in ("vertical", "lateral", "longitudinal")}
+    folder = rigs.write(tmp_path / "rig", tests, more={
+        "longitudinal": {"figures": {"slip_stiffness": []}},
+        "lateral": {"figures": {"cornering_stiffness": [], "pneumatic_trail": []}}}, settings=SETTINGS)
+    found = rondo.open_rig(folder)
+    names = {one.name for one in figures.figures_of(found)}
+    plt.close("all")
+    assert next(one for one in trends(found) if "Cornering" in one.name).holds is None
+    assert "longitudinal-load" in names and not {"slip-stiffness", "cornering-stiffness"} & names
 
 
 def test_axes_have_units_and_forces_name_their_axes(drawn):

@@ -11,7 +11,7 @@ namespace rondo {
 [[nodiscard]] Eigen::VectorXcd solve(const Eigen::MatrixXcd& a, const Eigen::VectorXcd& b);
 [[nodiscard]] Eigen::MatrixXcd solve(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
-/// The same by Cholesky's factors. @pre `a` is positive definite; its lower triangle is read
+/// Solves a x = b by Cholesky's factors. @pre `a` is positive definite; its lower triangle is read
 [[nodiscard]] Eigen::MatrixXd solve_definite(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 [[nodiscard]] Eigen::MatrixXcd solve_definite(const Eigen::MatrixXcd& a, const Eigen::MatrixXcd& b);
 
@@ -21,10 +21,10 @@ struct Axes {
   Eigen::VectorXd values;
   Matrix vectors;
 };
-/// Of a symmetric or Hermitian matrix, of which the lower triangle is read.
+/// Decomposes a symmetric or Hermitian matrix, whose lower triangle it reads.
 [[nodiscard]] Axes<Eigen::MatrixXd> axes_of(const Eigen::MatrixXd& a);
 [[nodiscard]] Axes<Eigen::MatrixXcd> axes_of(const Eigen::MatrixXcd& a);
-/// Without the vectors.
+/// Finds the eigenvalues alone.
 [[nodiscard]] Eigen::VectorXd eigenvalues_of(const Eigen::MatrixXd& a);
 [[nodiscard]] Eigen::VectorXd eigenvalues_of(const Eigen::MatrixXcd& a);
 

@@ -20,7 +20,8 @@ struct ContactStatistics {
   long long extensions = 0;    ///< of a massless boundary: how often nodes were added
   int extensions_max = 0;      ///< largest in a step
   int between_bodies = 0;      ///< largest in a step
-  // Of friction that is not constant, over the rows of history.csv (analysis/friction_watch.hpp):
+  // Friction that is not constant adds these at the rows of history.csv
+  // (analysis/friction_watch.hpp):
   double friction_steepness = 0.0;    ///< largest κ of a contact                           [-]
   double friction_alternating = 0.0;  ///< Σ r_n |Δμ| of contacts above its limit  [N·s/m], [N·s]
   double friction_bearable = 0.0;     ///< Σ r_n μ of all contacts, with the larger of both μ

@@ -7,6 +7,7 @@
 
 #include "rondo/core/contract.hpp"
 #include "rondo/core/index.hpp"
+#include "rondo/rom/wheel/base/reduced_wheel.hpp"
 
 namespace rondo::rom {
 namespace {
@@ -15,9 +16,8 @@ using Clock = std::chrono::steady_clock;
 
 }  // namespace
 
-ReducedRun::ReducedRun(const dynamics::Model& model, const WheelModel& wheel, double theta,
-                       double law_residual, std::vector<std::size_t> candidates,
-                       WheelFigures& figures)
+ReducedRun::ReducedRun(const dynamics::Model& model, const WheelModel& wheel, double law_residual,
+                       std::vector<std::size_t> candidates, WheelFigures& figures)
     : model_(model),
       law_residual_(law_residual),
       candidates_(std::move(candidates)),
@@ -25,7 +25,7 @@ ReducedRun::ReducedRun(const dynamics::Model& model, const WheelModel& wheel, do
       n_sums_(sums_of(wheel)) {
   RONDO_DEMAND(model.dt > 0.0, model.dt);
   active_.reserve(model.contact->nodes.size());
-  if (model.rim) rim_.emplace(model, theta, wheel.largest_spin);
+  if (model.rim) rim_.emplace(model, StepSettings().theta, wheel.largest_spin);
 }
 
 WheelMotion ReducedRun::motion_of(long long step) const {

@@ -39,11 +39,10 @@ class ReducedRun : public dynamics::Integrator, public dynamics::Resumable {
 
  protected:
   /// All must outlive it. @param model dt: that of the reduced step
-  /// @param theta share of the new force in that on the modes
   /// @param law_residual of the law of contact, over the largest force: more is not converged
   /// @param candidates candidates_of() the ring
-  ReducedRun(const dynamics::Model& model, const WheelModel& wheel, double theta,
-             double law_residual, std::vector<std::size_t> candidates, WheelFigures& figures);
+  ReducedRun(const dynamics::Model& model, const WheelModel& wheel, double law_residual,
+             std::vector<std::size_t> candidates, WheelFigures& figures);
 
   /// The motion of a step that the tables give. Kinks are spread over the step that ends there.
   [[nodiscard]] WheelMotion motion_of(long long step) const;

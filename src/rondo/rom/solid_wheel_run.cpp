@@ -24,8 +24,7 @@ SolidWheelSettings settings_of(const dynamics::Model& model, double law_residual
 SolidWheelRun::SolidWheelRun(const dynamics::Model& model, const SolidRing& ring,
                              const WheelModel& wheel, double law_residual, WheelFigures& figures,
                              const dynamics::State& at_start, const HubStart& hub)
-    : ReducedRun(model, wheel, SolidWheelSettings{}.theta, law_residual,
-                 candidates_of(ring, *model.contact), figures),
+    : ReducedRun(model, wheel, law_residual, candidates_of(ring, *model.contact), figures),
       wheel_(ring, wheel, *model.contact, settings_of(model, law_residual)),
       aside_(hub.aside),
       camber_(model.motion.camber),

@@ -24,8 +24,7 @@ WheelSettings settings_of(const dynamics::Model& model, const Ring& ring) {
 
 WheelRun::WheelRun(const dynamics::Model& model, const Ring& ring, const WheelModel& wheel,
                    WheelFigures& figures, const dynamics::State& at_start)
-    : ReducedRun(model, wheel, WheelSettings{}.theta, law_residual,
-                 candidates_of(ring, *model.contact), figures),
+    : ReducedRun(model, wheel, law_residual, candidates_of(ring, *model.contact), figures),
       wheel_(ring, wheel, model.contact->ground, settings_of(model, ring)) {
   WheelMotion start = motion_at_start();
   start.center -= model.motion.advance(0.0, model.dt).plane();

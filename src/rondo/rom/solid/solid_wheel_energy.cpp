@@ -74,7 +74,7 @@ void SolidWheel::account_modes(const SolidMotion& motion, SolidWheelReport& repo
   }
 }
 
-/// Of the filtered forces on the near nodes.
+/// Sums the products of the filtered forces on the near nodes.
 ResidualProducts SolidWheel::products() const {
   ResidualProducts sum;
   for (const Near& near : near_) {

@@ -29,7 +29,7 @@ struct RingHarmonic {
   Eigen::VectorXcd turned;       ///< (r) φᴴ M J X; harmonic 0
   Eigen::VectorXcd translation;  ///< (r) l = φᵀ M (1, -i of each node); harmonic 1, of a
                                  ///< ring of one sector harmonic 0
-  // Of a ring in three dimensions:
+  // A ring in three dimensions has these too:
   Eigen::MatrixXcd planar{};  ///< (r, r) φᴴ M P φ, with P the radial and tangential components
   Eigen::VectorXcd axial{};   ///< (r) φᴴ M (0, 0, 1 of each node); harmonic 0
   Eigen::VectorXcd tilt{};    ///< (r) φᴴ M (0, 0, x + iy of each node); harmonic 1

@@ -17,7 +17,7 @@ constexpr double certain = 2.0;
 /// Factor of the slip 0, over the largest one, below which nodes cannot stick.
 constexpr double vanishing = 0.1;
 
-/// Of contact nodes without mass, which alternate at any step.
+/// The warning where contact nodes have no mass, and alternate at any step.
 constexpr char no_step[] =
     "ground.friction.slip_speed is less than a tenth of its largest value at rest: contact nodes "
     "without mass slide and stick in turn at any step, and friction is too small: take "
@@ -76,8 +76,8 @@ void tell_friction_rise(const Case& c, Setup& s) {
   s.warnings.push_back(fmt::format(
       "ground.friction.slip_speed rises so steeply from less than a tenth of its largest value at "
       "rest that at a contact pressure of about {:.2g} Pa contact nodes slide and stick in turn "
-      "from step to step, and friction is "
-      "too small: a time.step of {:.2g} s is short enough up to twice that pressure",
+      "from step to step, and friction is too small: a time.step of {:.2g} s is short enough up to "
+      "twice that pressure",
       *pressure, friction_step_of(s, 2.0 * rate)));
 }
 

@@ -7,6 +7,7 @@
 
 namespace rondo::study {
 
+/// What the elements of a body take of the stability of its steps.
 [[nodiscard]] dynamics::ElementLimit elements_of(const Setup& s) noexcept;
 
 /// dynamics::friction_step(), rounded down to two digits. @param rate κ over the step     [1/s]

@@ -31,10 +31,10 @@ template <int D>
 template <int D>
 [[nodiscard]] std::vector<double> tributaries_of(const SectorRing<D>& ring,
                                                  const dynamics::ContactModel& contact) {
+  const std::vector<std::size_t> candidates = candidates_of(ring, contact);
   std::vector<double> tributaries;
-  for (const std::size_t candidate : candidates_of(ring, contact))
-    if (tributaries.size() < ring.contact.size())
-      tributaries.push_back(contact.tributary[candidate]);
+  for (std::size_t c = 0; c < ring.contact.size(); ++c)
+    tributaries.push_back(contact.tributary[candidates[c]]);
   return tributaries;
 }
 

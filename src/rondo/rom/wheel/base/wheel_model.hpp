@@ -17,7 +17,8 @@ struct WheelModel {
   std::vector<RingResidual> residuals;  ///< at these
   double largest_spin = 0.0;            ///< up to which these are good                    [rad/s]
   double radius = 0.0;                  ///< largest |X| [m]
-  // Of a body whose material has viscous branches, the same ones everywhere; others have none.
+  // A body whose material has viscous branches, the same ones everywhere, has these; others have
+  // none.
   std::vector<fem::ViscousBranch> branches{};
   std::vector<CreepTerm> creep{};     ///< of these and of the stiffness damping
   std::vector<RingResidual> later{};  ///< at `squares`: CreepResidual::later

@@ -23,8 +23,8 @@ struct WheelEnergy {
 
 /// What the reports of both have. Forces are per metre of width in the plane.
 struct WheelOutcome {
-  /// Of the ground's forces about the axle, counter-clockwise: at the end of the step, and what θ
-  /// of it and 1 - θ of that at its start make [N], [N m]
+  /// Torque of the ground's forces about the axle, counter-clockwise, at the end of the step; and
+  /// its mean, θ times this and 1 - θ times that at the start [N], [N m]
   double torque = 0.0, mean_torque = 0.0;
   WheelEnergy energy;
   int candidates = 0;          ///< nodes whose contact was solved
