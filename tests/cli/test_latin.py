@@ -2,6 +2,7 @@
 """A crush by LATIN and LATIN-PGD: the direct crush is its limit; what it writes, what it refuses."""
 import itertools
 import json
+import os
 import signal
 import subprocess
 import time
@@ -191,6 +192,19 @@ class Solved(RunTest):
         self.assertEqual(summary(out)["status"], "interrupted")
         self.assertGreater(len(table(out / "convergence.csv")["residual"]), 0)
         self.assertFalse((out / PGD / "pod.json").exists())
+
+
+class Threads(ProgramTest):
+    def test_those_of_the_library_of_dense_algebra_do_not_change_a_bit(self):
+        """With 800 increments it would share the singular values out; with 400 it would not."""
+        found = []
+        for threads in ("1", "2"):
+            done = run("run", ROOT / "cases" / "crush-latin.toml", "-o", self.folder / threads, "--quiet",
+                       *options(("disk.mesh.circumferential=60", "disk.mesh.radial=3", "analysis.increments=400",
+                                 "analysis.slide_increments=400")), env=os.environ | {"OPENBLAS_NUM_THREADS": threads})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            found.append((self.folder / threads / "history.csv").read_bytes())
+        self.assertEqual(*found)
 
 
 class Refused(ProgramTest):
