@@ -37,7 +37,7 @@ SCRIPTS = {"cli": "test_run.py", "lengths": "test_contact_lengths.py", "disk": "
            "reduce": "test_reduce.py", "solid": "test_solid.py", "tyre": "test_tyre.py", "tyrerolling": "test_tyre_rolling.py", "tyresteady": "test_tyre_steady_nonlinear.py", "tyrecheck": "test_tyre_check.py", "tyrecrush": "test_tyre_crush.py", "viscosity": "test_viscosity.py", "loss3d": "test_reduced_loss_3d.py",
            "fmu": "test_fmu.py", "fmuspace": "test_fmu_space.py", "fmufiles": "test_fmu_files.py", "rim": "test_wheel_rim.py", "schema": "test_schema.py", "small": "test_small_obstacles.py", "roads": "test_road.py",
            "obstacles": "test_obstacles.py", "angles": "test_obstacle_angles.py", "frictionwork": "test_friction_work.py", "frictiontables": "test_friction_tables.py",
-           "push": "test_push_words.py"}
+           "push": "test_push_words.py", "latin": "test_latin.py"}
 
 PACKAGE = {"rigfit": "test_rig_fit.py", "rigreport": "test_rig_report.py", "rigagainst": "test_rig_against.py",
            "rigfigures": "test_rig_figures.py", "rigcommand": "test_rig_command.py",
